@@ -1,22 +1,23 @@
 /**
  * The calls that the worker answers: what each sends there, and which wasm files it takes. The client sends by this table, the
- * service loads by it, and the promise API forwards by it; what a call does is in `direct.js`. A new call is one row here.
+ * service loads by it, and the promise API forwards by it; what a call does is in `direct.js`. A new call is one row here, or in
+ * `plain-calls.js`.
  */
 import { asDepthOptions } from './depth-input.js';
 import { copyOfFile } from './file-bytes.js';
 import { isImage, isImagePhoto } from './formats.js';
-import { asBytes, asField, asHeights, asImage, asPixels, detached } from './input.js';
+import { asBytes, asField, asHeights, asImage, detached } from './input.js';
 import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
 import { optionsOf } from './options.js';
 import { asEdges, asFoundPage, edgesAndOptions, pageOptions, plainEdges } from './page-input.js';
+import { ofPlainCalls } from './plain-calls.js';
 import { fileOf as photoFileOf, photoOf } from './photo-source.js';
 import { asBook, placedOptions, printOptions } from './sheet-input.js';
-import { asText, plainCopy } from './values.js';
+import { asText } from './values.js';
 import { transfer } from './wire.js';
 
 /**
  * @typedef {import('./direct.js').PartName} PartName
- * @typedef {keyof typeof import('./options.js').OPTIONS} OptionsName
  * @typedef {PartName | 'solver'} Part a wasm file
  * @typedef {any[]} Arguments of a call, as the caller or the client gives them
  *
@@ -25,48 +26,25 @@ import { transfer } from './wire.js';
  * @property {readonly Part[] | ((...sent: Arguments) => readonly Part[])} parts wasm files that it takes
  */
 
-/**
- * A call about heights, and its options.
- * @param {OptionsName} name of its options
- * @param {readonly Part[]} parts
- * @returns {Call}
- */
-const aboutHeights = (name, parts) => ({
-  parts,
+/** @type {Record<import('./plain-calls.js').PlainCallName, Call>} */
+const plainCalls = ofPlainCalls((_, part, check) => ({
+  parts: [part],
   send(input, given) {
-    const options = optionsOf(name, given);
-    return [handedOver(asField(input)), options];
+    const [taken, options] = check(input, given);
+    return [taken?.kind ? handedOver(taken) : taken, options];
   },
-});
-
-/**
- * A call about a whole mesh, and its options.
- * @param {OptionsName} name of its options
- * @param {readonly Part[]} parts
- * @returns {Call}
- */
-const aboutMesh = (name, parts) => ({
-  parts,
-  send(mesh, given) {
-    const options = optionsOf(name, given);
-    return [wholeOf(mesh).shape, options];
-  },
-});
-
-/**
- * A call that writes a file of one thing.
- * @param {(input: any) => any} take checks and copies it
- * @param {readonly Part[]} parts
- * @returns {Call}
- */
-const writing = (take, parts) => ({ parts, send: (input) => [take(input)] });
-
-/** @param {unknown} drawing */
-const drawing = (drawing) => plainCopy('the drawing', drawing);
+}));
 
 /** @satisfies {Record<string, Call>} */
 export const CALLS = {
-  occlusions: aboutHeights('occlusions', ['solver']),
+  ...plainCalls,
+  occlusions: {
+    parts: ['solver'],
+    send(input, given) {
+      const options = optionsOf('occlusions', given);
+      return [handedOver(asField(input)), options];
+    },
+  },
   read: {
     parts: (bytes, options) => [isImage(asBytes(bytes), options) ? 'images' : 'files'],
     async send(bytes, given) {
@@ -76,20 +54,7 @@ export const CALLS = {
   },
   formatOf: { parts: ['files'], send: async (bytes) => [await fileOf(bytes)] },
   npzArrays: { parts: ['images'], send: async (bytes) => [await fileOf(bytes)] },
-  writeNpy: writing((input) => handedOver(asField(input)), ['files']),
-  writePng: writing((input) => handedOver(asPixels(input)), ['files']),
-  writeTiff: writing((input) => handedOver(asPixels(input)), ['images']),
-  writeExr: writing((input) => handedOver(asPixels(input)), ['images']),
-  writeObj: {
-    parts: ['files'],
-    send(input, given) {
-      const options = optionsOf('writeObj', given);
-      return [handedOver(asMeshOrLattice(input)), options];
-    },
-  },
-  writeMtl: writing((picture) => asText('INPUT', "the picture's name", picture), ['files']),
-  writePly: writing((input) => handedOver(asMeshOrLattice(input)), ['meshes']),
-  writeStl: writing((input) => handedOver(asMeshOrLattice(input)), ['meshes']),
+  writeNpy: { parts: ['files'], send: (input) => [handedOver(asField(input))] },
   writeGlb: {
     parts: ['meshes'],
     async send(input, given) {
@@ -109,12 +74,6 @@ export const CALLS = {
     parts: ['files'],
     send: (pages, given) => [asBook(pages).map(({ picture, size }) => ({ picture: new Uint8Array(picture), size })), optionsOf('writeBook', given)],
   },
-  writeSvg: writing(drawing, ['patterns']),
-  writePdf: {
-    parts: ['patterns'],
-    send: (input, given) => [drawing(input), optionsOf('writePdf', given)],
-  },
-  writeDxf: writing(drawing, ['patterns']),
   readMesh: {
     parts: ['meshes'],
     async send(bytes, given) {
@@ -153,7 +112,6 @@ export const CALLS = {
       return [field, { ...options, reference: reference === undefined ? undefined : asField(reference) }];
     },
   },
-  patches: aboutHeights('patches', ['unroll']),
   picture: {
     parts: ['unroll'],
     send(input, given) {
@@ -161,13 +119,7 @@ export const CALLS = {
       return [handedOver(asField(input)), options];
     },
   },
-  rulings: aboutHeights('rulings', ['unroll']),
-  fitCylinder: writing((input) => handedOver(asHeights(input)), ['solver']),
-  unroll: aboutHeights('unroll', ['unroll']),
-  pattern: aboutHeights('pattern', ['patterns']),
-  analyzeMesh: aboutMesh('analyzeMesh', ['fitmesh']),
-  meshRulings: aboutMesh('meshRulings', ['fitmesh']),
-  unrollMesh: aboutMesh('unrollMesh', ['patterns']),
+  fitCylinder: { parts: ['solver'], send: (input) => [handedOver(asHeights(input))] },
   patternMesh: {
     parts: ({ textures }) => ['patterns', ...(textures ? forPictures(textures) : [])],
     send(mesh, given) {
@@ -176,7 +128,6 @@ export const CALLS = {
       return [options.printed ? { ...shape, uvs, textureOf, textures } : shape, options];
     },
   },
-  recognizeMesh: aboutMesh('recognizeMesh', ['patterns']),
   dewarp: {
     parts: ['unroll'],
     send(input, photo, given) {

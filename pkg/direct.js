@@ -2,17 +2,18 @@
 import { asDepthOptions } from './depth-input.js';
 import { DevelopableError } from './errors.js';
 import { isImage } from './formats.js';
-import { asBytes, asField, asHeights, asImage, asInput, asLattice, asPixels, carriedOf } from './input.js';
+import { asBytes, asField, asHeights, asImage, asInput, carriedOf } from './input.js';
 import { files, images, meshFits, meshes, partOf, patterns, solver, surfaces } from './instances.js';
 import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
 import { optionsOf } from './options.js';
 import { asEdges, asFoundPage, edgesAndOptions, pageOptions } from './page-input.js';
 import { inColour, jpegsOf, paintOf, readPhoto } from './paint.js';
+import { ofPlainCalls } from './plain-calls.js';
 import { makeDisposable } from './platform.js';
 import { PROGRESS_INTERVAL, answerOf } from './progress.js';
 import { Steps } from './steps.js';
 import { asBook, asPhoto, placeOf, placedOptions, printOptions } from './sheet-input.js';
-import { asText, isRecord, plainCopy, reading, record, show } from './values.js';
+import { asText, isRecord, reading, record, show } from './values.js';
 
 export { parseCamera } from './camera-file.js';
 export { DevelopableError } from './errors.js';
@@ -32,46 +33,16 @@ export async function load(...parts) {
   await Promise.all(wanted.map(({ part, place }) => part.init(place)));
 }
 
-/**
- * A call of the wasm about heights, and its options.
- * @param {keyof typeof import('./options.js').OPTIONS} name
- * @param {import('./instance.js').Instance<any>} part
- * @returns {any}
- */
-const ofHeights = (name, part) => (/** @type {any} */ input, /** @type {object | undefined} */ given) => {
-  const field = asField(input);
-  const { onProgress, ...options } = /** @type {{ onProgress?: OnProgress }} */ (optionsOf(name, given));
-  return part.watched((wasm) => wasm[name](field, options), onProgress);
-};
-
-/**
- * A call of the wasm about a whole mesh, and its options.
- * @param {keyof typeof import('./options.js').OPTIONS} name
- * @param {import('./instance.js').Instance<any>} part
- * @returns {any}
- */
-const ofMesh = (name, part) => (/** @type {any} */ mesh, /** @type {object | undefined} */ given) => {
-  const { shape } = wholeOf(mesh);
-  const { onProgress, ...options } = /** @type {{ onProgress?: OnProgress }} */ (optionsOf(name, given));
-  return part.watched((wasm) => wasm[name](shape, options), onProgress);
-};
-
-/**
- * A call of the wasm that writes a file of one thing.
- * @param {string} name
- * @param {import('./instance.js').Instance<any>} part
- * @param {(input: any) => unknown} take checks and copies it
- */
-const writing = (name, part, take) => (/** @type {any} */ input) => {
-  const taken = take(input);
-  return unshared(part.call((wasm) => wasm[name](taken)));
-};
-
-/** @param {unknown} drawing */
-const asDrawing = (drawing) => /** @type {Partial<import('./types.js').Drawing> | undefined} */ (plainCopy('the drawing', drawing));
-
-/** The textures of a drawing, which the wasm checks. @param {ReturnType<typeof asDrawing>} drawing */
-const texturesOf = (drawing) => drawing?.textures ?? [];
+export const {
+  writePng, writeTiff, writeExr, writeObj, writeMtl, writePly, writeStl, patches, rulings, unroll, pattern, analyzeMesh, meshRulings, unrollMesh,
+  recognizeMesh, writeSvg, writePdf, writeDxf,
+} = /** @type {Pick<typeof import('./direct.js'), import('./plain-calls.js').PlainCallName>} */ (ofPlainCalls((name, part, check) => {
+  const call = (/** @type {any} */ input, /** @type {object | undefined} */ given) => {
+    const [taken, { onProgress, ...options } = {}] = check(input, given);
+    return partOf(part).watched((wasm) => wasm[name](taken, options), onProgress);
+  };
+  return Object.defineProperty(call, 'name', { value: name });
+}));
 
 /** @typedef {import('./direct.js').Solver} SolverApi */
 
@@ -224,34 +195,6 @@ export function writeNpy(input) {
   return bytesOf((wasm) => (field.kind === 'image' ? wasm.writeImageNpy(field) : wasm.writeLatticeNpy(field)));
 }
 
-/** @type {typeof import('./direct.js').writePng} */
-export const writePng = writing('writePng', files, asPixels);
-
-/** @type {typeof import('./direct.js').writeTiff} */
-export const writeTiff = writing('writeTiff', images, asPixels);
-
-/** @type {typeof import('./direct.js').writeExr} */
-export const writeExr = writing('writeExr', images, asPixels);
-
-/** @type {typeof import('./direct.js').writeObj} */
-export function writeObj(input, given) {
-  const lattice = asMeshOrLattice(input);
-  const options = optionsOf('writeObj', given);
-  return bytesOf((wasm) => wasm.writeObj(lattice, options));
-}
-
-/** @type {typeof import('./direct.js').writeMtl} */
-export function writeMtl(picture) {
-  const name = asText('INPUT', "the picture's name", picture);
-  return bytesOf((wasm) => wasm.writeMtl(name));
-}
-
-/** @type {typeof import('./direct.js').writePly} */
-export const writePly = writing('writePly', meshes, asMeshOrLattice);
-
-/** @type {typeof import('./direct.js').writeStl} */
-export const writeStl = writing('writeStl', meshes, asMeshOrLattice);
-
 /** @type {typeof import('./direct.js').writeGlb} */
 export function writeGlb(input, given) {
   const lattice = asMeshOrLattice(input);
@@ -304,9 +247,6 @@ export function analyze(input, given) {
   return surfaces.call((wasm) => wasm.analyze(field, other, options));
 }
 
-/** @type {typeof import('./direct.js').patches} */
-export const patches = ofHeights('patches', surfaces);
-
 /** @type {typeof import('./direct.js').picture} */
 export function picture(input, given) {
   const options = placedOptions('picture', input, given);
@@ -321,29 +261,11 @@ export function draw(canvas, input, given) {
   surfaces.call((wasm) => wasm.draw(canvas, field, options));
 }
 
-/** @type {typeof import('./direct.js').rulings} */
-export const rulings = ofHeights('rulings', surfaces);
-
 /** @type {typeof import('./direct.js').fitCylinder} */
 export function fitCylinder(input) {
   const field = asHeights(input);
   return { ...solver.call((wasm) => wasm.fitCylinder(field)), ...carriedOf(field) };
 }
-
-/** @type {typeof import('./direct.js').unroll} */
-export const unroll = ofHeights('unroll', surfaces);
-
-/** @type {typeof import('./direct.js').pattern} */
-export const pattern = ofHeights('pattern', patterns);
-
-/** @type {typeof import('./direct.js').analyzeMesh} */
-export const analyzeMesh = ofMesh('analyzeMesh', meshFits);
-
-/** @type {typeof import('./direct.js').meshRulings} */
-export const meshRulings = ofMesh('meshRulings', meshFits);
-
-/** @type {typeof import('./direct.js').unrollMesh} */
-export const unrollMesh = ofMesh('unrollMesh', patterns);
 
 /** @type {typeof import('./direct.js').patternMesh} */
 export function patternMesh(mesh, given) {
@@ -353,25 +275,6 @@ export function patternMesh(mesh, given) {
   const drawing = patterns.watched((wasm) => wasm.patternMesh(files ? { ...shape, uvs, textureOf } : shape, options), onProgress);
   return { ...drawing, ...(files && { textures: files }) };
 }
-
-/** @type {typeof import('./direct.js').recognizeMesh} */
-export const recognizeMesh = ofMesh('recognizeMesh', patterns);
-
-/** @type {typeof import('./direct.js').writeSvg} */
-export function writeSvg(drawing) {
-  const own = asDrawing(drawing);
-  return unshared(patterns.call((wasm) => wasm.writeSvg(own, texturesOf(own))));
-}
-
-/** @type {typeof import('./direct.js').writePdf} */
-export function writePdf(drawing, given) {
-  const own = asDrawing(drawing);
-  const options = optionsOf('writePdf', given);
-  return unshared(patterns.call((wasm) => wasm.writePdf(own, options, texturesOf(own))));
-}
-
-/** @type {typeof import('./direct.js').writeDxf} */
-export const writeDxf = writing('writeDxf', patterns, asDrawing);
 
 /**
  * Here there is nobody to hand anything over to.

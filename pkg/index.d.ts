@@ -10,7 +10,7 @@ import type {
   ExploredPatterns, OcclusionOptions, PageEdges, PageOutlines, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, PatternPlan, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
-  SolverOptions, Surface, SurfaceOf, SurfacePicture, ThreadOptions, Unrolling, UnrollOptions, WriteBookOptions, WritePdfOptions, WritePhotoOptions,
+  SolverOptions, Surface, SurfaceOf, SurfacePicture, ThreadOptions, Unrolling, UnrollOptions, WriteBookOptions, WriteObjOptions, WritePdfOptions, WritePhotoOptions, WriteSvgOptions,
 } from './types.js';
 export { parseCamera } from './camera-file.js';
 export * from './types.js';
@@ -42,12 +42,6 @@ export interface WriteGlbOptions {
    * of the mesh or surface; `null` for none.
    */
   texture?: Uint8Array | ArrayBuffer | Blob | null;
-}
-
-/** Options of writing an OBJ file. */
-export interface WriteObjOptions {
-  /** Name of a file that `writeMtl` has written; its picture replaces colours. */
-  materials?: string;
 }
 
 /** Options of a fit of an open input. */
@@ -351,7 +345,7 @@ export function explorePattern(input: HeightImage | Heightfield, options?: Explo
  */
 export function explorePatternMesh(mesh: Mesh, options?: ExplorePatternMeshOptions): Promise<ExploredPatterns>;
 /** Writes a drawing to an SVG file in millimetres, with the layers `picture`, `cut`, `mountain`, `valley`, `tab` and `label`. */
-export function writeSvg(drawing: Drawing): Promise<Uint8Array<ArrayBuffer>>;
+export function writeSvg(drawing: Drawing, options?: WriteSvgOptions): Promise<Uint8Array<ArrayBuffer>>;
 /**
  * Writes a drawing to a PDF file in true size, to be printed at 100 %: one page as large as the drawing, or pages of
  * paper that overlap, with crosses by which they are laid on each other.

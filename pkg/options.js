@@ -43,6 +43,7 @@ export const OPTIONS = {
   unrollMesh: { ...sheets.unrollMesh, ...progress },
   patternMesh: { ...sheets.patternMesh, ...progress },
   recognizeMesh: {},
+  writeSvg: sheets.writeSvg,
   writePdf: sheets.writePdf,
   explorePattern: { ...exploration, solver: { kind: optionsIn(fit.solver) }, pattern: { kind: optionsIn(sheets.pattern) } },
   explorePatternMesh: { ...exploration, solver: { kind: optionsIn(fit.meshSolver) }, pattern: { kind: optionsIn(sheets.patternMesh) } },

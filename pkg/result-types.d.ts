@@ -310,6 +310,10 @@ export interface DrawingLabel {
   size: number;
   /** Angle of the text, in degrees counter-clockwise. */
   turn: number;
+  /**
+   * Numbers of the patches on either side of a cut crease, from 0, the lower one first; only its letters have them.
+   */
+  patches?: [number, number];
 }
 
 /**
@@ -562,6 +566,8 @@ export type FoldDirection = 'mountain' | 'valley';
 export interface FoldLine {
   /** Number of the crease that the fold line follows, from 0, its index in `creases`. */
   crease: number;
+  /** Numbers of the patches on either side of the fold line, from 0, the lower one first. */
+  patches: [number, number];
   /** Whether the fold is a mountain or a valley fold, seen from above. */
   direction: FoldDirection;
   /** Fold angle in degrees: 0 where the sheet stays flat. */

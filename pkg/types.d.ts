@@ -514,3 +514,9 @@ export type WasmModule = typeof globalThis extends { WebAssembly: { Module: { pr
 export type InitInput =
   | string | URL | Response | ArrayBuffer | ArrayBufferView | WasmModule
   | Promise<Response | ArrayBuffer | ArrayBufferView | WasmModule>;
+
+/** Options of writing an OBJ file. */
+export interface WriteObjOptions {
+  /** Name of a file that `writeMtl` has written; its picture replaces colours. */
+  materials?: string;
+}

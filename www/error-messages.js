@@ -1,5 +1,8 @@
 /** Error messages about files, without the wording of the libraries that read them. */
 
+/** Whether an error is one of the package's with this code. @param {unknown} error @param {string} code */
+export const hasCode = (error, code) => error instanceof Error && 'code' in error && error.code === code;
+
 /** Beginnings of the package's own messages; any other text after “cannot read this as …:” comes from a library. */
 const OWN_MESSAGE_START = /^(it|its|the file|there|an attribute|a) /;
 /** Wordings of libraries for a file that ends too early. */
@@ -8,11 +11,12 @@ const TRUNCATED_FILE = /end of file|unexpected end|EOF|EOCD|fill whole buffer|mi
 const COPY_AGAIN = 'copy, download or export it again';
 
 /**
- * Rewrites the message of an error for the user.
- * @param {string} message
+ * The message of an error, rewritten for the user.
+ * @param {unknown} error or its message
  * @returns {string} a sentence without its full stop
  */
-export function plainMessage(message) {
+export function plainMessage(error) {
+  const message = error instanceof Error ? error.message : String(error);
   const [, format, reason] = /^cannot read this as (?:an? )?(.+?): (.*)$/s.exec(message) ?? [];
   if (format) {
     if (TRUNCATED_FILE.test(reason)) return `the ${format} file is cut short: it ends before all of it is there; ${COPY_AGAIN}`;

@@ -333,5 +333,5 @@ export function meshLambdaChoiceInWords({ lambda, sigma, stopReason }) {
  * @param {unknown} error
  */
 export function errorMessage(doing, error) {
-  return `${doing}: ${plainMessage(error instanceof Error ? error.message : String(error))}.`;
+  return `${doing}: ${plainMessage(error)}.`;
 }

@@ -1,4 +1,5 @@
 /** Sheets to cut out of a surface: their size, options, figures and pictures. */
+import { hasCode } from './error-messages.js';
 import { count, number, numberAgainst, percent } from './format.js';
 
 /** @import {Analyses} from './analyses.js' */
@@ -76,8 +77,7 @@ export async function cutSheets(analyses, result, { side, ...options }, tell) {
     try {
       return await analyses.pattern(result, { scale, ...options, maxStrain }, tell);
     } catch (error) {
-      const hasNextLimit = maxStrain !== STRAIN_LIMITS.at(-1) && error instanceof Error && 'code' in error && error.code === 'NOT_FLAT';
-      if (!hasNextLimit) throw error;
+      if (maxStrain === STRAIN_LIMITS.at(-1) || !hasCode(error, 'NOT_FLAT')) throw error;
     }
   }
   throw new Error('no cut lays it flat');

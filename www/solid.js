@@ -4,7 +4,7 @@ import { make } from './dom.js';
 import { between, fieldsOf } from './fields.js';
 import { FORMAT_WORDS, SOLID_WORDS } from './messages.js';
 import { suggestedSide } from './pattern.js';
-import { boxOf } from './surface/triangles.js';
+import { borderEdges, boxOf } from './surface/triangles.js';
 import { zip } from './zip.js';
 
 /** @import {Mesh} from './api.js' */
@@ -44,18 +44,6 @@ function solidOf({ positions, triangles }, { side, thickness, onBase }) {
   for (let t = 0; t < triangles.length; t += 3) faces.set([triangles[t] + count, triangles[t + 2] + count, triangles[t + 1] + count], triangles.length + t);
   rim.forEach(([a, b], i) => faces.set([b, a, a + count, b, a + count, b + count], 2 * triangles.length + 6 * i));
   return { positions: all, triangles: faces, wasOpen: true };
-}
-
-/** The edges with a triangle on one side only, in its direction. @param {Uint32Array} triangles @returns {[number, number][]} */
-function borderEdges(triangles) {
-  const count = triangles.reduce((most, vertex) => Math.max(most, vertex), 0) + 1;
-  /** @type {Map<number, [number, number]>} */
-  const single = new Map();
-  for (let t = 0; t < triangles.length; t++) {
-    const [a, b] = [triangles[t], triangles[t % 3 === 2 ? t - 2 : t + 1]];
-    if (!single.delete(b * count + a)) single.set(a * count + b, [a, b]);
-  }
-  return [...single.values()];
 }
 
 /** Smallest cosine between a vertex's normal and its faces for which the shell keeps its thickness there; a sharper edge would become a spike. */

@@ -32,8 +32,15 @@ const fitted = [...output, 'unit', ...energy, ...heights, ...mesh, ...known, ...
 /** Flags of those commands that go on with the fitted surface. */
 const shaped = [...fitted, 'as-is'];
 
-/** Kinds of files that hold a surface. */
-const SURFACES = ['.npy', '.png', '.tif', '.tiff', '.exr', '.obj', '.ply', '.stl', '.glb'];
+/** The calls that write a surface to a file, by its ending, the usual one first: heights at pixels, and meshes. A format is a row here. */
+export const IMAGE_FILES = /** @type {const} */ ({ '.npy': 'writeNpy', '.png': 'writePng', '.tif': 'writeTiff', '.tiff': 'writeTiff', '.exr': 'writeExr' });
+export const MESH_FILES = /** @type {const} */ ({ '.obj': 'writeObj', '.ply': 'writePly', '.stl': 'writeStl', '.glb': 'writeGlb' });
+
+/** Endings of files that hold a surface. */
+const SURFACES = Object.keys({ ...IMAGE_FILES, ...MESH_FILES });
+
+/** Endings in words. @param {readonly string[]} endings */
+export const oneOf = (endings) => (endings.length > 1 ? `${endings.slice(0, -1).join(', ')} or ${endings.at(-1)}` : endings[0]);
 
 const INPUT =
   'heights: TIFF, EXR, PFM, NPY or NPZ, or a grey picture (PNG, JPEG, WebP); or a mesh or point cloud, seen ' +
@@ -41,7 +48,7 @@ const INPUT =
   'or below; a warning names missing ones. - is standard input';
 
 const OUTPUT =
-  ".npy, .png, .tif or .exr (heights at the input's pixels) or .obj, .ply, .stl or .glb (a mesh). Of a mesh, the latter " +
+  `${oneOf(Object.keys(IMAGE_FILES))} (heights at the input's pixels) or ${oneOf(Object.keys(MESH_FILES))} (a mesh). Of a mesh, the latter ` +
   'are in its own coordinates, with its colours and texture coordinates, the former heights on the lattice';
 
 /** @satisfies {Record<string, CommandInfo>} */

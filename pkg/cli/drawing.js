@@ -43,7 +43,7 @@ export async function patternFiles(task, drawing, plan) {
  */
 export async function drawn(drawing, extension, title) {
   switch (extension) {
-    case '.svg': return developable.writeSvg(drawing);
+    case '.svg': return developable.writeSvg(drawing, { title });
     case '.pdf': return developable.writePdf(drawing, { title });
     case '.dxf': return developable.writeDxf(drawing);
     default: return json({ ...drawing, assembly: undefined });

@@ -3,6 +3,7 @@ import { dirname, relative, sep } from 'node:path';
 import * as developable from '../index.js';
 import { solver } from '../schema/fit.js';
 import { readCamera } from './camera.js';
+import { IMAGE_FILES, MESH_FILES } from './commands.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { about } from './explain.js';
 import { readForFit } from './inputs.js';
@@ -121,20 +122,19 @@ export async function solve(task, input, control) {
  * @param {import('../types.js').Georeference} [map] where the input's pixels lie
  */
 function encode({ extension, output, mtl }, surface, map) {
-  switch (extension) {
-    case '.obj': return developable.writeObj(surface, mtl === undefined ? {} : { materials: from(output, mtl) });
-    case '.ply': return developable.writePly(surface);
-    case '.stl': return developable.writeStl(surface);
-    case '.glb': return developable.writeGlb(surface);
-  }
+  if (extension in MESH_FILES) return writeMesh(extension, surface, mtl === undefined ? undefined : { materials: from(output, mtl) });
   const { rows, cols, spacing, heights: data } = surface;
   // On the lattice, the rows of the file are those of the lattice, as in the input.
   const image = surface.image ?? { width: cols, height: rows, data, pixelSize: spacing };
-  switch (extension) {
-    case '.png': return developable.writePng(image);
-    case '.exr': return developable.writeExr(image);
-    case '.tif':
-    case '.tiff': return developable.writeTiff(map === undefined ? image : { ...image, georeference: map });
-    default: return developable.writeNpy(image);
-  }
+  return developable[IMAGE_FILES[/** @type {keyof typeof IMAGE_FILES} */ (extension)]]({ ...image, georeference: map });
+}
+
+/**
+ * @param {string} extension
+ * @param {import('../types.js').Mesh | Surface} surface
+ * @param {import('../types.js').WriteObjOptions} [options]
+ */
+export function writeMesh(extension, surface, options) {
+  const write = /** @type {typeof developable.writeObj} */ (developable[MESH_FILES[/** @type {keyof typeof MESH_FILES} */ (extension)]]);
+  return write(surface, options);
 }

@@ -6,7 +6,7 @@ import { dewarpPage } from '../schema/photo.js';
 import { Format } from '../schema/names.js';
 import { rulings } from '../schema/shape.js';
 import { show } from '../values.js';
-import { commands } from './commands.js';
+import { MESH_FILES, commands, oneOf } from './commands.js';
 import { flagName, flagNames, usage, valueName } from './flags.js';
 import { refuseSameFiles } from './same-file.js';
 import { streams } from './terminal.js';
@@ -146,8 +146,8 @@ const RULES = [
     '--shape cylinder is for depths, meshes and heights on the lattice, and the input is an image'],
   [({ shape, asIs }) => shape === 'cylinder' && asIs,
     '--as-is takes the heights without a fit, and --shape says what to fit: leave one out'],
-  [({ command, mode, extension }) => command === 'fit' && mode === 'surface' && !['.obj', '.ply', '.stl', '.glb'].includes(extension),
-    'with --surface the output is a mesh: .obj, .ply, .stl or .glb'],
+  [({ command, mode, extension }) => command === 'fit' && mode === 'surface' && !(extension in MESH_FILES),
+    `with --surface the output is a mesh: ${oneOf(Object.keys(MESH_FILES))}`],
   [({ focalLength, fieldOfView }) => focalLength !== undefined && fieldOfView !== undefined,
     '--focal-length and --field-of-view say the same: give one of them'],
   ...['edges', 'map'].map((flag) => given(flag, ({ inputs }) => inputs.length > 1, `--${flag} is for one photo: make the pages flat one by one`)),
@@ -262,8 +262,7 @@ function outputExtension(command, { output, to, explore }) {
 function extension(command, what, path, known) {
   const found = extname(path).toLowerCase();
   if (known.includes(found)) return found;
-  const choices = known.length > 1 ? `${known.slice(0, -1).join(', ')} or ${known.at(-1)}` : known[0];
-  throw usage(`the ${what} must end in ${choices}, but is ${show(path)}`, command);
+  throw usage(`the ${what} must end in ${oneOf(known)}, but is ${show(path)}`, command);
 }
 
 /**

@@ -4,6 +4,7 @@ import { meshSolver } from '../schema/fit.js';
 import { meshRulings } from '../schema/shape.js';
 import { drawingOptions, patternFiles, reportPattern } from './drawing.js';
 import { checkPlaces, writeWhole } from './files.js';
+import { writeMesh } from './fit.js';
 import { readMesh } from './inputs.js';
 import { chosenOf, tellPlans, withPlans } from './pattern.js';
 import { optionsFrom } from './task.js';
@@ -66,7 +67,7 @@ function fitted(task, mesh, signal) {
 const made = {
   async fit({ output, extension, report: path }, surface) {
     const { report } = /** @type {import('../types.js').MeshSurface} */ (surface);
-    return [{ path: output, bytes: await encode(extension, surface) }, ...(path === undefined ? [] : [{ path, bytes: json(report) }])];
+    return [{ path: output, bytes: await writeMesh(extension, surface) }, ...(path === undefined ? [] : [{ path, bytes: json(report) }])];
   },
 
   async analyze({ output, asIs, threshold }, surface, mesh) {
@@ -154,18 +155,5 @@ function tell(task, { report }, mesh) {
       `developable: warning: ${report.entangled.length} triangles of ${task.output} are folded over or cross others, as far as the noise ` +
         `tells; the first is number ${first.triangle}, at (${place}); report.entangled has all\n`,
     );
-  }
-}
-
-/**
- * @param {string} extension
- * @param {Mesh} surface
- */
-function encode(extension, surface) {
-  switch (extension) {
-    case '.obj': return developable.writeObj(surface);
-    case '.ply': return developable.writePly(surface);
-    case '.stl': return developable.writeStl(surface);
-    default: return developable.writeGlb(surface);
   }
 }

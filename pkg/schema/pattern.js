@@ -209,6 +209,12 @@ export const patternMesh = {
   ...model,
 };
 
+/** Options of writing a drawing to an SVG file. @satisfies {Options} */
+export const writeSvg = {
+  /** Title of the document. Default: "Pattern". */
+  title: { kind: text },
+};
+
 /** Options of writing a drawing to a PDF file. @satisfies {Options} */
 export const writePdf = {
   /**

@@ -101,8 +101,11 @@ impl DrawnSheet {
             }
         }
         for (run, curve) in lines.outlines.iter().flatten() {
-            if let Some(letter) = run.seam.and_then(|seam| letters.get(&seam.crease)) {
-                labels.push(Label::seam(letter, &curve.points(FLATTENING_TOLERANCE_MM)));
+            if let Some(seam) = &run.seam
+                && let Some(letter) = letters.get(&seam.crease)
+            {
+                let points = curve.points(FLATTENING_TOLERANCE_MM);
+                labels.push(Label::seam(letter, seam, &points));
             }
         }
         labels.extend(lines.folds.iter().map(Label::fold));

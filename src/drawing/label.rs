@@ -4,7 +4,7 @@ use super::curve::Curve;
 use super::line::{FLATTENING_TOLERANCE_MM, Line, place_at};
 use super::tabs::Tab;
 use crate::math::planar::{Point2, bounds, cross, distance, polyline_length};
-use crate::pattern::Direction;
+use crate::pattern::{Direction, Seam};
 
 /// Font size of a text beside a sheet, in millimetres. Texts on a sheet have half of it at least, along a line it at most, and
 /// four times it elsewhere; marks, leader lines and the gaps between nested sheets are as long.
@@ -32,6 +32,12 @@ pub struct Label {
     pub size: f64,
     /// Angle of the text, in degrees counter-clockwise.
     pub turn: f64,
+    /// Numbers of the patches on either side of a cut crease, from 0, the lower one first; only its letters have them.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, skip_serializing_if = "Option::is_none")
+    )]
+    pub patches: Option<[u32; 2]>,
 }
 
 /// Subject of a text in a drawing: what the text numbers or names.
@@ -61,6 +67,7 @@ impl Label {
             place,
             size: (0.8 * room).clamp(0.5 * TEXT_SIZE_MM, 4.0 * TEXT_SIZE_MM),
             turn: 0.0,
+            patches: None,
         }
     }
 
@@ -193,8 +200,12 @@ impl Label {
     }
 
     /// Creates candidates of the label with the letter of a cut crease, along the crease's line.
-    pub(super) fn seam(letter: &str, points: &[[f64; 2]]) -> Vec<Label> {
-        Label::beside(LabelKind::Seam, letter, points, 1.0)
+    pub(super) fn seam(letter: &str, seam: &Seam, points: &[[f64; 2]]) -> Vec<Label> {
+        let mut texts = Label::beside(LabelKind::Seam, letter, points, 1.0);
+        texts
+            .iter_mut()
+            .for_each(|text| text.patches = Some(seam.patches));
+        texts
     }
 
     /// Creates candidates of the label with the direction and angle of a fold, of a smooth bend with its radius at the fold in
@@ -228,6 +239,7 @@ impl Label {
         let tabbed = |label: Label| Label {
             place: tab.middle,
             size: label.size.min(0.7 * tab.depth),
+            patches: Some(tab.seam.patches),
             ..label
         };
         let first = along.into_iter().next().map(tabbed);
@@ -241,6 +253,7 @@ impl Label {
             place: [0.5 * (min[0] + max[0]), max[1] + TEXT_SIZE_MM],
             size: TEXT_SIZE_MM,
             turn: 0.0,
+            patches: None,
         }
     }
 
@@ -253,6 +266,7 @@ impl Label {
             place,
             size: TEXT_SIZE_MM,
             turn: 0.0,
+            patches: None,
         }
     }
 
@@ -279,6 +293,7 @@ impl Label {
             place: [0.0; 2],
             size,
             turn: 0.0,
+            patches: None,
         };
         label.in_sizes().into_iter().flat_map(at).collect()
     }

@@ -20,6 +20,8 @@ pub struct Line {
     /// Number of the crease that the fold line follows, from 0, its index in
     /// [`Patches::creases`](crate::shape::patches::Patches::creases).
     pub crease: usize,
+    /// Numbers of the patches on either side of the fold line, from 0, the lower one first.
+    pub patches: [u32; 2],
     /// Whether the fold is a mountain or a valley fold, seen from above.
     pub direction: Direction,
     /// Fold angle in degrees: 0 where the sheet stays flat.
@@ -77,6 +79,7 @@ impl Line {
         let line = Line {
             bend: None,
             crease: seam.crease,
+            patches: seam.patches,
             direction: seam.direction,
             angle: seam.angle.to_degrees(),
             length: 0.0,

@@ -183,6 +183,7 @@ const calls = {
   sampleMesh: (options) => direct.sampleMesh(mesh, options),
   dewarp: (options) => direct.dewarp(surface(), photo, options),
   writePhoto: (options) => direct.writePhoto(photo, options),
+  writeSvg: (options) => direct.writeSvg(direct.pattern(surface()), options),
   writePdf: (options) => direct.writePdf(direct.pattern(surface()), options),
   example: (options) => direct.example('cone', options),
 };

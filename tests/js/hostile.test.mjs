@@ -88,7 +88,7 @@ const calls = {
   rulings: { args: { input: hex }, options: 'rulings' },
   unroll: { args: { input: hex }, options: 'unroll' },
   pattern: { args: { input: hex }, options: 'pattern' },
-  writeSvg: { args: { drawing } },
+  writeSvg: { args: { drawing }, options: 'writeSvg' },
   writePdf: { args: { drawing }, options: 'writePdf' },
   writeDxf: { args: { drawing } },
   dewarp: { args: { input: bent, photo }, options: 'dewarp' },

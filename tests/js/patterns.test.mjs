@@ -71,8 +71,8 @@ test('a drawing in millimetres', async () => {
 
 test('SVG, measured by a browser', { skip }, async () => {
   const drawing = direct.pattern(card, { scale });
-  const svg = direct.writeSvg(drawing);
-  assert.deepEqual(await developable.writeSvg(drawing), svg);
+  const svg = direct.writeSvg(drawing, { title: 'a <card> & more' });
+  assert.deepEqual(await developable.writeSvg(drawing, { title: 'a <card> & more' }), svg);
   const browser = await launch();
   try {
     const page = await browser.newPage();
@@ -81,6 +81,7 @@ test('SVG, measured by a browser', { skip }, async () => {
       const millimetres = ({ width, height }) => [width, height].map((side) => (side * 25.4) / 96);
       const path = (layer) => document.querySelector('#' + layer + ' path');
       return {
+        title: document.querySelector('svg > title').textContent,
         page: millimetres(document.querySelector('svg').getBoundingClientRect()),
         sheet: [path('cut').getBBox().width, path('cut').getBBox().height],
         shown: millimetres(path('cut').getBoundingClientRect()),
@@ -91,6 +92,7 @@ test('SVG, measured by a browser', { skip }, async () => {
         texts: [...document.querySelectorAll('#label text')].map((text) => text.textContent.trim()),
       };
     })()`);
+    assert.equal(found.title.trim(), 'a <card> & more');
     near(found.page[0], drawing.width, 1e-3);
     near(found.page[1], drawing.height, 1e-3);
     near(found.sheet[0], flat.width);
@@ -444,7 +446,9 @@ test('the command', async () => {
   const from = 'pattern card.npy --lattice hex --no-data 1e9 --as-is';
   assert.deepEqual(await command(`${from} -o card.svg --scale ${scale} --report card.json`), silent);
   const drawing = direct.pattern(card, { scale });
-  assert.deepEqual(new Uint8Array(await readFile(join(folder, 'card.svg'))), direct.writeSvg(drawing));
+  assert.deepEqual(new Uint8Array(await readFile(join(folder, 'card.svg'))), direct.writeSvg(drawing, { title: 'card' }));
+  assert.match(await readFile(join(folder, 'card.svg'), 'utf8'), /<title>\s*card\s*<\/title>/);
+  assert.match(new TextDecoder().decode(direct.writeSvg(drawing)), /<title>\s*Pattern\s*<\/title>/);
   const report = JSON.parse(await readFile(join(folder, 'card.json'), 'utf8'));
   // A report is asked for, and so are its sheets folded back.
   const { summary } = direct.pattern(card, { scale, refold: true });

@@ -7,6 +7,7 @@ import { commands } from '../../pkg/cli/commands.js';
 import { helpOn } from '../../pkg/cli/command-line.js';
 import { flagName } from '../../pkg/cli/flags.js';
 import { OPTIONS } from '../../pkg/options.js';
+import { directTypes, directTypesFile } from '../../tools/build/direct-types.mjs';
 import { optionTypes, optionTypesFile } from '../../tools/build/option-types.mjs';
 
 /** Functions that do something else in each API. */
@@ -19,6 +20,14 @@ test('the types of options are those of the schema', async () => {
   assert.equal(text, await optionTypes(), 'build the package again');
 });
 
+test('the types of direct calls are those of the promise API, without promises and what only a worker takes', async () => {
+  const text = await readFile(directTypesFile, 'utf8');
+  assert.equal(text, await directTypes(), 'build the package again');
+  assert.doesNotMatch(text, /Promise|Blob|Abortable|HandOver|reject/);
+  assert.ok(text.includes('export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions & Watched): Unrolling;'));
+  assert.ok(text.includes('export function findPage(photo: Photo | Uint8Array | ArrayBuffer): PageOutlines;'));
+});
+
 /** Names that inherit what is said of them, as their types are only narrower. */
 const INHERITED = ['LatticeSurface.image', 'SampledMesh.origin', 'SampledMesh.heights', 'SampledMesh.frame'];
 
@@ -26,7 +35,7 @@ test('every type, field and function has a comment, and a function says the same
   /** What is said of a function by the first API. @type {Map<string, string>} */
   const functions = new Map();
   let count = 0;
-  for (const file of ['types', 'option-types', 'result-types', 'index', 'direct', 'sync', 'errors', 'camera-file']) {
+  for (const file of ['types', 'option-types', 'result-types', 'index', 'direct-calls', 'direct', 'sync', 'errors', 'camera-file']) {
     const source = await readFile(new URL(`../../pkg/${file}.d.ts`, import.meta.url), 'utf8');
     const { program, comments } = await parse(`${file}.d.ts`, source);
     /** @param {{ start: number }} node @param {string} name */

@@ -411,7 +411,7 @@ fn sheets_lie_whole_on_as_few_pages_as_they_fit_on() {
 fn files_are_the_same_each_time() {
     let drawing = drawn(&vaults(), DrawingOptions::default().scale(100.0).tabs(5.0));
     for write in [
-        |d: &Drawing| write_svg(d, &[]),
+        |d: &Drawing| write_svg(d, None, &[]),
         write_dxf,
         |d: &Drawing| write_pdf(d, &PdfOptions::default().stock(Some(Stock::A4))),
     ] {
@@ -455,7 +455,10 @@ fn nonsense_is_refused() {
     );
     let mut broken = drawn(&sheets, DrawingOptions::default());
     broken.sheets[0].cuts[0][0][1] = f64::NAN;
-    assert_eq!(write_svg(&broken, &[]).unwrap_err().code(), "UNSUPPORTED");
+    assert_eq!(
+        write_svg(&broken, None, &[]).unwrap_err().code(),
+        "UNSUPPORTED"
+    );
     assert_eq!(write_dxf(&broken).unwrap_err().code(), "UNSUPPORTED");
     // So deep that no edge is long enough for one.
     let tabs = drawn(&sheets, DrawingOptions::default().tabs(1e3));

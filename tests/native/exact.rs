@@ -546,7 +546,7 @@ fn textures_are_printed_on_sheets_in_their_true_place() {
             size: [16, 8],
         },
     ];
-    let svg = String::from_utf8(write_svg(&drawing, &files).unwrap()).unwrap();
+    let svg = String::from_utf8(write_svg(&drawing, None, &files).unwrap()).unwrap();
     // Each square is one part, so that no line shows in it.
     assert_eq!(svg.matches("<clipPath").count(), 6, "{svg}");
     assert!(svg.contains("data:image/jpeg;base64,Zmlyc3Q=") && svg.contains("base64,c2Vjb25k"));

@@ -4,6 +4,7 @@ import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { root } from '../util/paths.mjs';
 import { main } from '../util/problem.mjs';
+import { directTypes, directTypesFile } from './direct-types.mjs';
 
 /** @typedef {import('../../pkg/schema/kinds.js').Options} Options */
 
@@ -17,7 +18,7 @@ const MODULES = {
     analyze: 'AnalyzeOptions', analyzeMesh: 'MeshAnalyzeOptions', patches: 'PatchOptions', rulings: 'RulingOptions',
     meshRulings: 'MeshRulingOptions', unroll: 'UnrollOptions', picture: 'PictureOptions',
   },
-  pattern: { pattern: 'PatternOptions', unrollMesh: 'MeshUnrollOptions', patternMesh: 'MeshPatternOptions', writePdf: 'WritePdfOptions' },
+  pattern: { pattern: 'PatternOptions', unrollMesh: 'MeshUnrollOptions', patternMesh: 'MeshPatternOptions', writeSvg: 'WriteSvgOptions', writePdf: 'WritePdfOptions' },
   photo: {
     depths: 'DepthOptions', paint: 'PaintOptions', dewarp: 'DewarpOptions', dewarpPage: 'DewarpPageOptions', flattenPhoto: 'FlattenPhotoOptions',
     writePhoto: 'WritePhotoOptions', writeBook: 'WriteBookOptions',
@@ -118,9 +119,10 @@ function member(name, { default: value, type, kind }, doc) {
   return `${comment(told, '  ')}  ${name.split('.')[1]}?: ${type ?? kind.type};\n`;
 }
 
-/** Writes the types of options into the package. */
+/** Writes the types of options into the package, and those of the calls that take them. */
 export async function buildOptionTypes() {
   await writeFile(optionTypesFile, await optionTypes());
+  await writeFile(directTypesFile, await directTypes());
 }
 
 if (import.meta.url === pathToFileURL(process.argv[1] ?? '').href) await main(buildOptionTypes);

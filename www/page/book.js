@@ -89,7 +89,7 @@ export class Book {
         const flat = await runInWorker(api, signal, async (own) => flattenWholePhoto(own, request, await flattenReducedPhoto(own, request)));
         pages.push(...await pictureFiles(worker, flat, traces[0].length, quarters, paper, session.options.ink));
       } catch (error) {
-        entry.problem = plainMessage(error instanceof Error ? error.message : String(error));
+        entry.problem = plainMessage(error);
       }
     }
     if (pages.length === 0) throw new Error(this.problemsInWords());

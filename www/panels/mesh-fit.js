@@ -161,7 +161,7 @@ export function meshFitPanel(session, meshFit, stage, heights) {
   });
   meshFit.on('failure', (error) => {
     stage.setSolving(false);
-    const words = plainMessage(error instanceof Error ? error.message : String(error));
+    const words = plainMessage(error);
     const reason = `${words[0].toUpperCase()}${words.slice(1)}.`;
     stage.say(whole, MESH_FIT_WORDS.unsolved, reason);
     if (!isFirstSolve) return;

@@ -113,7 +113,7 @@ export function offerToSave(api, { title, stem, ready = async () => {}, formats,
     } catch (error) {
       if (job !== present) return;
       progress.end();
-      const reason = plainMessage(error instanceof Error ? error.message : String(error));
+      const reason = plainMessage(error);
       size.textContent = reason && SAVE_WORDS.unwritten(reason);
     }
   };

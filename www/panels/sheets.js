@@ -3,7 +3,7 @@ import { element, make, SETTLING_MS } from '../dom.js';
 import { between, fieldsOf } from '../fields.js';
 import { number } from '../format.js';
 import { assemblyModel, assemblyPicture, drawingImage, MAX_SIDE_MM, MIN_SIDE_MM, MM_PER_UNIT, sheetFigures, sheetsInWords, smallestPiece, suggestedSide, trueSide } from '../pattern.js';
-import { plainMessage } from '../error-messages.js';
+import { hasCode, plainMessage } from '../error-messages.js';
 import { SHEET_WORDS } from '../messages.js';
 import { edgeAt, parsePairs, togglePair } from '../sheet-edges.js';
 import { figures } from '../views/legend.js';
@@ -178,9 +178,8 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
       if (requested !== drawing) return;
       preview.replaceChildren();
       about.replaceChildren();
-      const reason = plainMessage(error instanceof Error ? error.message : String(error));
-      const isCurvedFold = error instanceof Error && 'code' in error && error.code === 'CURVED_FOLD';
-      status.textContent = isCurvedFold ? SHEET_WORDS.curvedFold : SHEET_WORDS.uncut(reason);
+      const reason = plainMessage(error);
+      status.textContent = hasCode(error, 'CURVED_FOLD') ? SHEET_WORDS.curvedFold : SHEET_WORDS.uncut(reason);
       failed = true;
     } finally {
       if (requested === drawing) {
@@ -244,7 +243,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
     formats: [
       { value: 'pdf', name: 'PDF', words: SHEET_WORDS.pdf, type: 'application/pdf',
         write: async (worker) => worker.writePdf(await drawing, { stock: paper() || undefined, title: stem }) },
-      { value: 'svg', name: 'SVG', words: SHEET_WORDS.svg, type: 'image/svg+xml', write: async (worker) => worker.writeSvg(await drawing) },
+      { value: 'svg', name: 'SVG', words: SHEET_WORDS.svg, type: 'image/svg+xml', write: async (worker) => worker.writeSvg(await drawing, { title: stem }) },
       { value: 'dxf', name: 'DXF', words: SHEET_WORDS.dxf, type: 'image/vnd.dxf', write: async (worker) => worker.writeDxf(await drawing) },
       { value: 'png', name: 'PNG', words: SHEET_WORDS.png, type: 'image/png', write: async () => assemblyPicture(await drawing, up) },
       { value: 'glb', name: 'GLB', words: SHEET_WORDS.glb, type: 'model/gltf-binary', write: async () => assemblyModel(await drawing) },

@@ -1,4 +1,5 @@
 /** Reads the sheets of a pattern's assembly as one mesh. */
+import { borderEdges } from './triangles.js';
 
 /**
  * Reads an assembly. The rotation of its root node is ignored, so that z is up.
@@ -48,14 +49,9 @@ export function readAssemblyMesh(model) {
 export function borderLines(triangles) {
   /** @type {Map<number, Set<number>>} */
   const next = new Map();
-  for (let t = 0; t < triangles.length; t += 3) {
-    for (let corner = 0; corner < 3; corner++) {
-      const [a, b] = [triangles[t + corner], triangles[t + ((corner + 1) % 3)]];
-      // An inner edge occurs in both directions, a border edge in one.
-      if (next.get(b)?.delete(a)) continue;
-      if (!next.has(a)) next.set(a, new Set());
-      next.get(a)?.add(b);
-    }
+  for (const [a, b] of borderEdges(triangles)) {
+    if (!next.has(a)) next.set(a, new Set());
+    next.get(a)?.add(b);
   }
   /** @type {Uint32Array[]} */
   const lines = [];

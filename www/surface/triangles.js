@@ -71,3 +71,15 @@ export function vertexColors(length, colour) {
   for (let i = 0; i < length; i++) colors.set(colour(i).map((value) => value / 255), 3 * i);
   return colors;
 }
+
+/** The edges with a triangle on one side only, in its direction. @param {Uint32Array} triangles @returns {[number, number][]} */
+export function borderEdges(triangles) {
+  const count = triangles.reduce((most, vertex) => Math.max(most, vertex), 0) + 1;
+  /** @type {Map<number, [number, number]>} */
+  const single = new Map();
+  for (let t = 0; t < triangles.length; t++) {
+    const [a, b] = [triangles[t], triangles[t % 3 === 2 ? t - 2 : t + 1]];
+    if (!single.delete(b * count + a)) single.set(a * count + b, [a, b]);
+  }
+  return [...single.values()];
+}

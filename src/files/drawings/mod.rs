@@ -20,7 +20,7 @@
 //! # let patches = Patches::new(&card, &PatchOptions::default())?;
 //! # let pattern = pattern(&card, &patches, &PatternOptions::default())?;
 //! let drawing = Drawing::new(&pattern.sheets, &DrawingOptions::default())?;
-//! let file = write_svg(&drawing, &[])?;
+//! let file = write_svg(&drawing, Some("card"), &[])?;
 //! assert!(String::from_utf8_lossy(&file).contains("id=\"mountain\""));
 //! # Ok(())
 //! # }
@@ -38,6 +38,9 @@ pub use dxf::write_dxf;
 pub use pdf::{PdfOptions, write_pdf};
 pub use printed::TextureFile;
 pub use svg::write_svg;
+
+/// Title of a document that is given none.
+const UNTITLED: &str = "Pattern";
 
 /// The purpose of a line in a drawing (to cut, to fold, a mark …), in the order in which lines are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,7 +4,7 @@ use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 
 use super::printed::{PrintedPart, TextureFile};
-use super::{BASELINE_DROP, LINE_WIDTH_MM, TEXT_GREY_LEVEL, layers};
+use super::{BASELINE_DROP, LINE_WIDTH_MM, TEXT_GREY_LEVEL, UNTITLED, layers};
 use crate::drawing::{Drawing, Label, Pages, Piece, Stock};
 use crate::error::Result;
 use crate::files::points::{check_page, points};
@@ -99,7 +99,7 @@ pub fn write_pdf(drawing: &Drawing, options: &PdfOptions<'_>) -> Result<Vec<u8>>
     let mut pdf = Pdf::new();
     pdf.catalog(catalog).pages(tree);
     pdf.document_info(info)
-        .title(TextStr(options.title.unwrap_or("Pattern")));
+        .title(TextStr(options.title.unwrap_or(UNTITLED)));
     let ids = (0..count).map(page);
     pdf.pages(tree).kids(ids).count(count as i32);
     pdf.type1_font(font)

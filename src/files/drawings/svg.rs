@@ -8,19 +8,23 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use super::printed::{PrintedPart, TextureFile};
-use super::{BASELINE_DROP, Kind, LINE_WIDTH_MM, TEXT_GREY_LEVEL};
+use super::{BASELINE_DROP, Kind, LINE_WIDTH_MM, TEXT_GREY_LEVEL, UNTITLED};
 use crate::drawing::{Curve, Drawing, LabelKind, Pages, Piece};
 use crate::error::Result;
 
 /// Writes a drawing as an SVG file: its unit is the millimetre, its layers are groups with the ids `cut`, `mountain`,
 /// `valley`, `tab`, `edge`, `mark`, `leader` and `label`, and each element has the number of its sheet as `data-sheet`
-/// and of its crease, if any, as `data-crease`. `textures` are those of the mesh, by their numbers; parts of them are printed
-/// below all lines, in a layer with the id `picture`.
+/// and of its crease, if any, as `data-crease`. `title` is that of the document, "Pattern" by default. `textures` are those of the
+/// mesh, by their numbers; parts of them are printed below all lines, in a layer with the id `picture`.
 ///
 /// # Errors
 /// [`Error::Unsupported`](crate::Error::Unsupported) for a drawing that is not finite or larger
 /// than [`MAX_SIZE`](crate::drawing::MAX_SIZE).
-pub fn write_svg(drawing: &Drawing, textures: &[TextureFile<'_>]) -> Result<Vec<u8>> {
+pub fn write_svg(
+    drawing: &Drawing,
+    title: Option<&str>,
+    textures: &[TextureFile<'_>],
+) -> Result<Vec<u8>> {
     drawing.check()?;
     let (width, height) = (number(drawing.width), number(drawing.height));
     let mut document = Document::new()
@@ -31,7 +35,7 @@ pub fn write_svg(drawing: &Drawing, textures: &[TextureFile<'_>]) -> Result<Vec<
             "xmlns:inkscape",
             "http://www.inkscape.org/namespaces/inkscape",
         )
-        .add(Title::new("Pattern"));
+        .add(Title::new(title.unwrap_or(UNTITLED)));
     if let Some(pages) = &drawing.pages {
         document = document
             .set(

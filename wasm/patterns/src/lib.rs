@@ -416,9 +416,10 @@ fn set(object: &JsValue, name: &str, value: &JsValue) -> Result<()> {
 
 /// Writes a drawing to an SVG file.
 #[wasm_bindgen(js_name = writeSvg)]
-pub fn write_svg_file(drawing: JsValue, textures: JsValue) -> Result<Uint8Array> {
-    let textures = Textures::read(textures)?;
-    let svg = write_svg(&drawn(drawing)?, &textures.files())?;
+pub fn write_svg_file(drawing: JsValue, options: JsValue) -> Result<Uint8Array> {
+    let FileInput { title, .. } = read(&options)?;
+    let textures = Textures::of(&drawing)?;
+    let svg = write_svg(&drawn(drawing)?, title.as_deref(), &textures.files())?;
     Ok(svg.as_slice().into())
 }
 
@@ -431,19 +432,21 @@ struct TextureInput {
     height: u32,
 }
 
-/// The textures of a mesh: files, with width and height in pixels.
+/// The textures of a drawing: files, with width and height in pixels.
 struct Textures(Vec<(Vec<u8>, [u32; 2])>);
 
 impl Textures {
-    fn read(given: JsValue) -> Result<Textures> {
-        let given: Vec<TextureInput> = from_value(given).map_err(|error| Failure {
+    fn of(drawing: &JsValue) -> Result<Textures> {
+        let given = Reflect::get(drawing, &"textures".into()).unwrap_or_default();
+        let given: Option<Vec<TextureInput>> = from_value(given).map_err(|error| Failure {
             code: "INPUT",
             message: format!(
                 "the drawing's textures must be JPEG files with width and height: {error}"
             ),
         })?;
         let copied = |own: TextureInput| (own.jpeg.to_vec(), [own.width, own.height]);
-        Ok(Textures(given.into_iter().map(copied).collect()))
+        let textures = given.unwrap_or_default().into_iter();
+        Ok(Textures(textures.map(copied).collect()))
     }
 
     fn files(&self) -> Vec<TextureFile<'_>> {
@@ -454,19 +457,19 @@ impl Textures {
     }
 }
 
-/// Options of writing a PDF file: JavaScript's `WritePdfOptions` object.
+/// Options of writing an SVG or a PDF file: JavaScript's `WriteSvgOptions` or `WritePdfOptions` object.
 #[derive(Default, Deserialize)]
 #[serde(default)]
-struct PdfInput {
+struct FileInput {
     stock: Option<Stock>,
     title: Option<String>,
 }
 
 /// Writes a drawing to a PDF file, on one page, or on pages of the option `stock`.
 #[wasm_bindgen(js_name = writePdf)]
-pub fn write_pdf_file(drawing: JsValue, options: JsValue, textures: JsValue) -> Result<Uint8Array> {
-    let PdfInput { stock, title } = read(&options)?;
-    let textures = Textures::read(textures)?;
+pub fn write_pdf_file(drawing: JsValue, options: JsValue) -> Result<Uint8Array> {
+    let FileInput { stock, title } = read(&options)?;
+    let textures = Textures::of(&drawing)?;
     let files = textures.files();
     let options = PdfOptions::default()
         .stock(stock)

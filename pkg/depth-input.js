@@ -1,6 +1,6 @@
 /** What is known of depths besides: checked as far as JS has to, in arrays of the types that Rust reads. */
 import { DevelopableError } from './errors.js';
-import { cells, count, numbers } from './input.js';
+import { cells, count, largestOf, numbers } from './input.js';
 import { optionsOf } from './options.js';
 import { record, show } from './values.js';
 
@@ -61,12 +61,11 @@ function asFlags(image) {
  */
 function asConfidence(image) {
   const { size, data, dataType } = imageOf('the confidence', image);
-  const [, sign, bits] = /^([ui])(\d+)$/.exec(dataType ?? '') ?? [];
+  const white = largestOf(dataType);
   let largest = 0;
   for (const value of data) if (value > largest) largest = value;
-  const white = bits === undefined ? 1 : 2 ** (Number(bits) - (sign === 'i' ? 1 : 0)) - 1;
-  const levels = bits !== undefined && largest < LEVELS.length;
-  const weights = Float32Array.from(data, (value) => (levels ? LEVELS[value] ?? 0 : value / white) || 0);
+  const levels = white !== undefined && largest < LEVELS.length;
+  const weights = Float32Array.from(data, (value) => (levels ? LEVELS[value] ?? 0 : value / (white ?? 1)) || 0);
   const odd = weights.findIndex((weight) => weight < 0 || weight > 1);
   if (odd < 0) return { ...size, data: weights };
   throw new DevelopableError(

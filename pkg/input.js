@@ -270,10 +270,33 @@ function known({ confidence, constraints, occlusions }, design) {
     throw new DevelopableError('INPUT', 'confidence is about heights, and there are only constraints');
   }
   return {
-    confidence: confidence === undefined ? undefined : numbers('confidence', confidence),
+    confidence: confidence === undefined ? undefined : weights(confidence),
     constraints: constraints === undefined ? undefined : numbers('constraints', constraints),
     occlusions: flags('occlusions', occlusions),
   };
+}
+
+/**
+ * Factors of the fidelity: as they are, or of an image that `read` has read, whose whole numbers are shares of the largest of
+ * their type, so that white is 1, and where no data is no confidence.
+ * @param {unknown} confidence
+ */
+function weights(confidence) {
+  if (!isImage(confidence)) return numbers('confidence', confidence);
+  const { data, dataType } = record('INPUT', 'the confidence', confidence, ['data', 'dataType']);
+  const white = largestOf(dataType) ?? 1;
+  return Float64Array.from(numbers('data of the confidence', data), (value) => (Number.isNaN(value) ? 0 : value / white));
+}
+
+/** Whether it is an object such as an image, and no array. @param {unknown} value */
+function isImage(value) {
+  return isRecord(value) && typeOf(value) === undefined;
+}
+
+/** Largest number of a type of integers, as `read` names those of a file; of others `undefined`. @param {unknown} dataType */
+export function largestOf(dataType) {
+  const [, sign, bits] = /^([ui])(\d+)$/.exec(String(dataType)) ?? [];
+  return bits === undefined ? undefined : 2 ** (Number(bits) - (sign === 'i' ? 1 : 0)) - 1;
 }
 
 /** Arrays with a value for each pixel or vertex. */
@@ -435,6 +458,7 @@ function each(name, size, vertices, array) {
 function flags(name, value) {
   if (value === undefined) return undefined;
   if (typeOf(value) === 'Uint8Array') return /** @type {Uint8Array} */ (viewOf(name, value));
+  if (isImage(value)) return flags(name, record('INPUT', name, value, ['data']).data ?? null);
   return reading('INPUT', name, () => {
     const list = Array.isArray(value) && value.every((flag) => typeof flag === 'boolean') ? value.map(Number) : numbers(name, value);
     // What is not a number is no flag.

@@ -24,16 +24,17 @@ export type Numbers =
   | Uint8Array | Uint8ClampedArray | Uint16Array | Uint32Array
   | readonly number[];
 
-/** One flag for each pixel or vertex. A number that is neither 0 nor NaN counts as true. */
-export type Flags = Numbers | readonly boolean[];
+/** One flag for each pixel or vertex, or what `read` returns. A number that is neither 0 nor NaN counts as true. */
+export type Flags = Numbers | readonly boolean[] | { readonly data: Numbers };
 
 /** Conditions of a fit besides the heights: one value for each pixel of an image or vertex of a lattice. */
 export interface FitConditions {
   /**
    * Confidence in each height, as a factor of its fidelity term: finite and at least 0. 1 is the weight of a height without
-   * confidence; 0 leaves the height free. The confidence of an image is resampled as its heights are. Default: 1 everywhere.
+   * confidence; 0 leaves the height free. The confidence of an image is resampled as its heights are. Of what `read` returns,
+   * whole numbers are shares of the largest of their type, and no data is no confidence. Default: 1 everywhere.
    */
-  confidence?: Numbers;
+  confidence?: Numbers | { readonly data: Numbers; readonly dataType?: string };
   /**
    * Heights that the surface meets exactly, in the same steps as the heights. NaN and `noData` are no constraint. A constraint
    * replaces the height at its place, and counts only within the outline.

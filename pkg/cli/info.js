@@ -21,9 +21,10 @@ export async function info({ input, array }) {
   await print(lines.map(([name, value]) => `${`${name}:`.padEnd(14)}${value}\n`).join(''));
 }
 
-/** @param {Uint8Array} bytes */
+/** Whether it is a ZIP archive whose first file is an array of NumPy: documents, X3P and 3MF are archives, too. @param {Uint8Array} bytes */
 function isArchive(bytes) {
-  return bytes[0] === 0x50 && bytes[1] === 0x4b;
+  const name = new TextDecoder().decode(bytes.subarray(30, 30 + bytes[26] + 256 * bytes[27]));
+  return bytes[0] === 0x50 && bytes[1] === 0x4b && (name.endsWith('.npy') || bytes[2] === 5);
 }
 
 /** @param {import('../types.js').NpzArray[]} arrays */
@@ -42,7 +43,7 @@ function meshInWords({ positions, triangles, colors, uvs, textures = [], missing
       low = Math.min(low, positions[i]);
       high = Math.max(high, positions[i]);
     }
-    return [axis, `${low} to ${high}`];
+    return [axis, [low, high].map((end) => Number(end.toPrecision(15))).join(' to ')];
   });
   return [
     ['vertices', `${positions.length / 3}`],
@@ -71,5 +72,6 @@ function imageInWords({ format, width, height, data, dataType, pixelSize, unit, 
     ['no data', `${missing} pixels`],
     ['pixel size', unit === null ? `${pixelSize}` : `${pixelSize} ${unit}`],
     ['height scale', `${heightScale}`],
+    ...(heightScale !== 1 && low <= high ? [['heights', [low, high].map((level) => Number((heightScale * level).toPrecision(6))).join(' to ')]] : []),
   ];
 }

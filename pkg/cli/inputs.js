@@ -43,9 +43,9 @@ export async function readInput(task) {
   const file = tellUndecided(task, await readImage(task.input, reading));
   const { mask, confidence, constraints, occlusions: torn } = task;
   const known = {
-    mask: mask && flags(await readBeside('mask', mask, file, task)),
-    confidence: confidence && weights(await readBeside('confidence', confidence, file, task)),
-    occlusions: torn && flags(await readBeside('occlusion mask', torn, file, task)),
+    mask: mask && await readBeside('mask', mask, file, task),
+    confidence: confidence && await readBeside('confidence', confidence, file, task),
+    occlusions: torn && await readBeside('occlusion mask', torn, file, task),
   };
   const pins = (task.command === 'design') ? file : constraints && (await readBeside('constraints', constraints, file, task));
   const heightScale = task.heightScale ?? file.heightScale;
@@ -349,22 +349,6 @@ async function readBeside(what, path, input, { pixelSize }) {
     status.input,
     `the ${what} ${verb} ${its} pixels and the input ${input.width} × ${input.height}`,
   );
-}
-
-/** @param {ReadResult} file */
-function flags({ data }) {
-  return Uint8Array.from(data, (value) => (value === 0 || Number.isNaN(value) ? 0 : 1));
-}
-
-/**
- * Whole numbers as shares of the largest of their type, so that white is 1; others as they are.
- * No data is no confidence.
- * @param {ReadResult} file
- */
-function weights({ data, dataType }) {
-  const [, kind, bits] = /^([ui])(\d+)$/.exec(dataType) ?? [];
-  const largest = kind ? 2 ** (Number(bits) - (kind === 'i' ? 1 : 0)) - 1 : 1;
-  return data.map((value) => (Number.isNaN(value) ? 0 : value / largest));
 }
 
 /**

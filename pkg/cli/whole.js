@@ -137,12 +137,9 @@ function tell(task, { report }, mesh) {
   }
   const { turned, degenerate, repeated, branched } = report.repairs;
   if (branched > 0) say(`edges of ${task.input} with three triangles or more are borders of each: ${branched}`);
-  if (turned + degenerate + repeated > 0) {
-    toStderr(
-      `developable: warning: ${task.input} was mended for the fit: ${turned} triangles faced the wrong side, ${degenerate} had ` +
-        `two corners at one place, ${repeated} were there twice\n`,
-    );
-  }
+  const mended = Object.entries({ 'on the wrong side': turned, 'with two corners at one place': degenerate, 'there twice': repeated });
+  const found = mended.filter(([, count]) => count > 0).map(([what, count]) => `${count} ${what}`).join(', ');
+  if (found) toStderr(`developable: warning: triangles of ${task.input} that are mended for the fit: ${found}\n`);
   if (report.flipped[1] > 0) {
     toStderr(
       `developable: warning: ${report.flipped[1]} triangles of ${task.output} are folded over (${percent(report.flipped[1] / (mesh.triangles.length / 3))})\n`,

@@ -64,7 +64,7 @@ const DICOM_START: [u8; 132] = {
 /// Formats that are not read: their names, what to do about them, and bytes of which one is in each file. A file begins with
 /// them, and a `?` among them stands for any; a tag of XML or HTML may stand further behind.
 #[rustfmt::skip]
-const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 57] = [
+const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 58] = [
     ("AVIF", SAVE_AS_JPEG, &[b"????ftypavi"]),
     ("HEIC", "save it as JPEG (an iPhone shares photos as JPEG with Settings > Camera > Formats > Most Compatible)",
         &[b"????ftyphei", b"????ftyphev", b"????ftypmif1", b"????ftypmsf1"]),
@@ -95,6 +95,7 @@ const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 57] = [
     ("text grid of GRASS", CONVERT_BY_GDAL, &[b"north:"]),
     ("Erdas Imagine", CONVERT_BY_GDAL, &[b"EHFA_HEADER_TAG"]),
     ("NITF", CONVERT_BY_GDAL, &[b"NITF"]),
+    ("virtual raster of GDAL", CONVERT_BY_GDAL, &[b"<VRTDataset"]),
     ("FITS", CONVERT_BY_GDAL, &[b"SIMPLE  ="]),
     ("JPEG 2000", CONVERT_BY_GDAL, &[b"????jP  ", b"\xff\x4f\xff\x51"]),
     ("MATLAB", "let MATLAB write its matrix by `writematrix`", &[b"MATLAB 5.0"]),
@@ -187,7 +188,8 @@ pub(super) fn refused(bytes: &[u8], purpose: Purpose) -> Error {
     } else if let Some(image) = image {
         let advice = match purpose {
             #[cfg(feature = "images")]
-            Purpose::Photo => "it has heights: read it as such",
+            Purpose::Photo => "it has heights, which `fit` and `info` take, and is no photo",
+            _ if image == Format::Text => "it is a table of numbers: read it as heights",
             _ => "it is an image: read it as heights or as a photo",
         };
         (image.title(), advice.into())
@@ -299,7 +301,7 @@ mod tests {
         );
         assert!(told(stl, Purpose::Photo).starts_with("STL: it is a mesh"));
         assert!(told(b"\xff\xd8\xff\xe0", Purpose::Mesh).starts_with("JPEG: it is an image"));
-        assert!(told(b"\x93NUMPY\x01\0", Purpose::Photo).contains("it has heights"));
+        assert!(told(b"\x93NUMPY\x01\0", Purpose::Photo).contains("it has heights, which `fit`"));
         assert!(
             told(b"Dear Sir or Madam,", Purpose::Mesh)
                 .ends_with("meshes are read from OBJ, PLY, STL, glTF, GLB, 3MF, OFF and XYZ")

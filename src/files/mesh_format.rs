@@ -53,7 +53,8 @@ impl MeshFormat {
             .split(u8::is_ascii_whitespace)
             .next()
             .unwrap_or_default();
-        if first == b"ply" {
+        // The signature may be in capitals, as trimesh and assimp read it, too.
+        if first.eq_ignore_ascii_case(b"ply") {
             return Some(MeshFormat::Ply);
         }
         if bytes.starts_with(b"glTF") || text.starts_with(b"{") && contains(bytes, GLTF_ASSET) {

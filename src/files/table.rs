@@ -15,6 +15,7 @@ const MIN_CLOUD_LINES_PER_COLUMN: usize = 10;
 const MAX_POINT_NUMBERS: usize = 10;
 
 /// Lines of equally many numbers; NaN where a cell is empty.
+#[cfg_attr(not(feature = "images"), allow(dead_code))]
 pub(super) struct Table {
     /// The numbers, line by line.
     pub(super) values: Vec<f64>,
@@ -25,6 +26,7 @@ pub(super) struct Table {
 }
 
 /// Heights of points on a grid from the highest y downwards, NaN where there is none.
+#[cfg_attr(not(feature = "images"), allow(dead_code))]
 pub(super) struct PointGrid {
     pub(super) values: Vec<f64>,
     /// Columns and rows.

@@ -56,7 +56,7 @@ const UNIT_LENGTHS: [(f64, &[&str]); 9] = [
 /// Returns the length in millimetres of a unit of a given name, in letters of any case.
 #[cfg(any(feature = "formats", feature = "meshes"))]
 pub(super) fn millimetres_in(name: &str) -> Option<f64> {
-    let name = name.to_lowercase();
+    let name = name.to_ascii_lowercase();
     let mut units = UNIT_LENGTHS.into_iter();
     units.find_map(|(length, names)| names.contains(&name.as_str()).then_some(length))
 }

@@ -405,6 +405,12 @@ test('a mesh of which one side hides much is taken whole without a flag, and so 
   assert.match(warned, /[67]\d % of the area of box\.stl is not seen/);
   const fit = await run(folder, ['fit', 'box.stl', '-o', 'fitted.stl', '--unit', 'mm']);
   assert.match(fit.stderr, /box\.stl has no noise: it is left as it is/);
+  assert.doesNotMatch(fit.stderr, /mended/);
+  const places = Array.from({ length: 25 }, (_, i) => `v ${10 * (i % 5)} ${10 * Math.floor(i / 5)} 0`);
+  const faces = Array.from({ length: 16 }, (_, i) => i + 1 + Math.floor(i / 4)).flatMap((i) => [`f ${i} ${i + 1} ${i + 6}`, i === 8 ? `f ${i} ${i + 5} ${i + 6}` : `f ${i} ${i + 6} ${i + 5}`]);
+  await writeFile(join(folder, 'turned.obj'), [...places, ...faces, ''].join('\n'));
+  const turned = await run(folder, ['fit', 'turned.obj', '--surface', '-o', 'turned.ply']);
+  assert.match(turned.stderr, /triangles of turned\.obj that are mended for the fit: 1 on the wrong side\n/);
   const { triangles } = await direct.readMesh(await readFile(join(folder, 'fitted.stl')), { unit: 'mm' });
   assert.equal(triangles.length, 36);
 });

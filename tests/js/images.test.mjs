@@ -66,7 +66,7 @@ test('units come with the pixel size', async () => {
   const uneven = await data('unequal.tif');
   const square = await developable.read(uneven);
   assert.ok(Math.abs(square.pixelSize - 0.254) < 1e-12);
-  assert.deepEqual(square.assumptions.map(({ code, option }) => [code, option]), [['squarePixels', 'pixelSize']]);
+  assert.deepEqual(square.assumptions.map(({ code, option }) => [code, option]), [['heightUnit', 'heightScale'], ['squarePixels', 'pixelSize']]);
 });
 
 test('arrays of an archive are chosen by name', async () => {
@@ -139,6 +139,9 @@ test('the command tells what is in a file', async () => {
     /^format: +tiff$/m, /^size: +4 × 3 pixels$/m, /^data type: +f32$/m, /^values: +-1\.625 to 8$/m,
     /^no data: +1 pixels$/m, /^pixel size: +0\.5 m$/m, /^height scale: +1$/m,
   ]) assert.match(tiff.stdout, line);
+  // Of levels, what they stand for.
+  await writeFile(join(folder, 'steps.png'), direct.writePng({ width: 3, height: 2, data: [1, 2, 3, 4, 5, 6] }));
+  assert.match((await developableCommand('info steps.png')).stdout, /^heights: +1 to 6$/m);
   const refused = await developableCommand('info colour.jpg');
   assert.deepEqual([refused.status, refused.stdout], [3, '']);
   assert.match(refused.stderr, /colour\.jpg: JPEG: the pixel at row 0/);

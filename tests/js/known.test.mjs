@@ -101,6 +101,22 @@ test('confidence is a factor of lambda', () => {
   assert.ok(rms(doubled.heights, plain.heights) < 0.02);
 });
 
+test('confidence, mask and occlusions may be what is read of a file', () => {
+  const rough = lattice(12, 12, noisy((x, y) => cylinder(12)(x, -y), 0.4));
+  const levels = rough.heights.map((_, i) => [0, 51, 255, NaN][i % 4]);
+  const file = { width: 12, height: 12, data: levels, dataType: 'u8' };
+  const plain = direct.fit({ ...rough, confidence: levels.map((level) => (level || 0) / 255) }, { lambda: 1e5 });
+  assert.deepEqual(direct.fit({ ...rough, confidence: file }, { lambda: 1e5 }).heights, plain.heights);
+  // Floats are factors already.
+  const factors = { ...file, data: levels.map((level) => (level || 0) / 255), dataType: 'f64' };
+  assert.deepEqual(direct.fit({ ...rough, confidence: factors }, { lambda: 1e5 }).heights, plain.heights);
+  const half = { ...file, data: levels.map((_, i) => (i % 12 < 8 ? 7 : NaN)) };
+  const masked = direct.fit({ ...rough, mask: half, occlusions: { data: new Float64Array(144) } }, { lambda: 1e5 });
+  assert.deepEqual(masked.heights.map((z) => Number(!Number.isNaN(z))), half.data.map((flag) => Number(flag === 7)));
+  assert.throws(() => direct.fit({ ...rough, mask: /** @type {any} */ ({}) }), error('INPUT', /mask must be a flat array/));
+  assert.throws(() => direct.fit({ ...rough, confidence: /** @type {any} */ ({ width: 12 }) }), error('INPUT', /data of the confidence must be a flat array/));
+});
+
 test('a jump stays where the surface is torn there', () => {
   const torn = direct.fit(step, { occlusionThreshold: 100, paper: true, lambda: 'small' });
   const smoothed = direct.fit(step, { paper: true, lambda: 'small' });

@@ -66,6 +66,16 @@ test('files of other programs are named with what to do, whatever reads them', a
   }
 });
 
+test('`info` names archives that are none of NumPy, too', async () => {
+  const folder = await temporaryFolder();
+  for (const [head, name] of FOREIGN.filter(([head]) => head.startsWith('PK'))) {
+    await writeFile(join(folder, 'a.bin'), bytes(head));
+    const { status, stderr } = await run(folder, ['info', 'a.bin']);
+    assert.equal(status, 3);
+    assert.match(stderr.replace('developable: a.bin: ', ''), name);
+  }
+});
+
 test('what another call reads is named with it', async () => {
   const [jpeg, npy, stl] = [await readFile(join(root, 'tests/data/grey.jpg')), await readFile(join(root, 'tests/data/f4-le.npy')), bytes('solid a\nfacet normal 0 0 1\n')];
   for (const call of ['read', 'readPhoto', 'dewarpPage']) await refused(call, stl, 'UNSUPPORTED', /^STL: it is a mesh/);

@@ -128,10 +128,15 @@ impl StoredImage {
                 self.no_data.is_some(),
             ));
         }
-        let depth_unit = depths::unit(&self.values, self.number_type);
-        // On a map, there are heights.
+        // COLMAP has a unit of its own, and nothing but depths; on a map, there are heights.
+        let are_depths = self.format == Format::Colmap;
+        let depth_unit = match are_depths {
+            true => Unit::Metre,
+            false => depths::unit(&self.values, self.number_type),
+        };
         let depths = match self.georeference {
             Some(_) => DepthEvidence::None,
+            None if are_depths => DepthEvidence::Certain,
             None => depths::evidence(
                 &self.values,
                 self.size.0,

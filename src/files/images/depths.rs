@@ -78,7 +78,7 @@ pub(super) fn evidence(
         number_type,
         NumberType::U16 | NumberType::I32 | NumberType::U32
     );
-    let name = name.to_lowercase();
+    let name = name.to_ascii_lowercase();
     let is_named = DEPTH_WORDS.iter().any(|word| name.contains(word));
     let count = values.iter().filter(|depth| is_depth(**depth)).count();
     let range = match unit {

@@ -124,7 +124,7 @@ impl<'a> Header<'a> {
         });
         let order = entry("fortran_order").and_then(|value| {
             let word = value.split([',', '}']).next()?;
-            word.trim().to_lowercase().parse().ok()
+            word.trim().to_ascii_lowercase().parse().ok()
         });
         let listed = entry("shape")
             .and_then(|value| value.strip_prefix('(')?.split_once(')'))

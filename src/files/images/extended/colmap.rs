@@ -29,6 +29,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::Unit;
+    use crate::files::images::{DecodeOptions, DepthEvidence};
 
     #[test]
     fn depths_are_read_row_by_row() {
@@ -43,6 +45,19 @@ mod tests {
         assert_eq!(
             (found.values, found.no_data),
             (depths.map(f64::from).to_vec(), Some(0.0))
+        );
+        // They are depths, in a unit of their own and not in millimetres, however large they are.
+        let large: Vec<u8> = file[..6]
+            .iter()
+            .copied()
+            .chain([300_f32; 6].map(f32::to_le_bytes).concat())
+            .collect();
+        let read = decode(&large)
+            .and_then(|file| file.finish(&DecodeOptions::default()))
+            .unwrap();
+        assert_eq!(
+            (read.depths, read.depth_unit),
+            (DepthEvidence::Certain, Unit::Metre)
         );
         let error = decode(&file[..file.len() - 1]).unwrap_err();
         assert!(error.to_string().contains("it is cut short"), "{error}");

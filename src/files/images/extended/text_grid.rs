@@ -25,8 +25,11 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     }
 }
 
-/// Makes an image of the values of a grid, whose cells have the given sides and whose south-west corner has the given place if
-/// these are known, as is the value that means no data.
+/// Makes an image of the values of a grid of columns and rows, whose cells have the given sides and whose south-west corner has
+/// the given place if these are known, as is the value that means no data.
+///
+/// # Errors
+/// [`Error::Format`](crate::Error::Format) for another number of values, and for sides that are no lengths.
 fn image(
     values: Vec<f64>,
     size: (usize, usize),
@@ -34,6 +37,19 @@ fn image(
     corner: Option<[f64; 2]>,
     no_data: Option<f64>,
 ) -> Result<StoredImage> {
+    let count = checked_cells("text grid", size.1, size.0)?;
+    if values.len() != count || count == 0 {
+        let reason = format!(
+            "it has {} values, but {} rows of {}",
+            values.len(),
+            size.1,
+            size.0
+        );
+        return Err(damaged(Format::Text, reason));
+    }
+    if !(sides.iter().flatten()).all(|side| side.is_finite() && *side > 0.0) {
+        return Err(damaged(Format::Text, "its cells have no size"));
+    }
     let mut image = StoredImage {
         sides,
         no_data,
@@ -83,20 +99,18 @@ fn esri_grid(text: &str) -> Result<Option<StoredImage>> {
         if !name.starts_with(|letter: char| letter.is_ascii_alphabetic()) {
             break;
         }
-        head.insert(name.to_lowercase(), value);
+        head.insert(name.to_ascii_lowercase(), value);
         rest = after;
     }
     let number = |name: &str| -> Result<Option<f64>> {
-        let Some(value) = head.get(name) else {
-            return Ok(None);
-        };
-        match value.replace(',', ".").parse() {
-            Ok(value) => Ok(Some(value)),
-            Err(_) => Err(damaged(
+        let parsed = head.get(name).map(|value| value.replace(',', ".").parse());
+        let wrong = |_| {
+            damaged(
                 Format::Text,
-                format!("its {name} is `{value}`, no number"),
-            )),
-        }
+                format!("its {name} is `{}`, no number", head[name]),
+            )
+        };
+        parsed.transpose().map_err(wrong)
     };
     let (Some(cols), Some(rows)) = (number("ncols")?, number("nrows")?) else {
         return Ok(None);
@@ -104,18 +118,10 @@ fn esri_grid(text: &str) -> Result<Option<StoredImage>> {
     let size = (cols as usize, rows as usize);
     let cell = number("cellsize")?;
     let [dx, dy] = [number("dx")?.or(cell), number("dy")?.or(cell)];
-    let sides = dx.zip(dy).map(|(dx, dy)| [dx, dy]);
-    if !(sides.iter().flatten()).all(|side| side.is_finite() && *side > 0.0) {
-        return Err(damaged(Format::Text, "its cells have no size"));
-    }
-    let count = checked_cells("ASCII grid", size.1, size.0)?;
+    let sides = dx.zip(dy).map(<[f64; 2]>::from);
     let values = numbers(rest, true)?;
     if values.is_empty() {
         return Err(unsupported("header of a raw grid", CONVERT_RAW));
-    }
-    if values.len() != count || count == 0 {
-        let reason = format!("it has {} values, but {rows} rows of {cols}", values.len());
-        return Err(damaged(Format::Text, reason));
     }
     let no_data = number("nodata_value")?;
     let [x, y] = ["x", "y"].map(|axis| -> Result<Option<f64>> {
@@ -140,27 +146,15 @@ fn surfer_grid(text: &str) -> Result<StoredImage> {
         ));
     }
     let size = (cols as usize, rows as usize);
-    let count = checked_cells("Surfer grid", size.1, size.0)?;
     values.drain(..head.len());
-    if values.len() != count || size.0 < 2 || size.1 < 2 {
-        let reason = format!("it has {} values, but {rows} rows of {cols}", values.len());
-        return Err(damaged(Format::Text, reason));
-    }
-    let sides = [(x1 - x0) / (cols - 1.0), (y1 - y0) / (rows - 1.0)];
-    if !sides.iter().all(|side| side.is_finite() && *side > 0.0) {
-        return Err(damaged(Format::Text, "its cells have no size"));
-    }
-    let rows = values.chunks_exact(size.0).rev().flatten();
     // Some programs write more digits of the blank than others.
-    let values = rows.map(|value| {
-        if *value >= SURFER_BLANK {
-            f64::NAN
-        } else {
-            *value
-        }
-    });
+    let blanks = values.iter_mut().filter(|value| **value >= SURFER_BLANK);
+    blanks.for_each(|value| *value = f64::NAN);
+    let rows_from_above = values.rchunks(size.0.max(1)).collect::<Vec<_>>().concat();
+    // Of one row or column they are infinite.
+    let sides = [(x1 - x0) / (cols - 1.0), (y1 - y0) / (rows - 1.0)];
     image(
-        values.collect(),
+        rows_from_above,
         size,
         Some(sides),
         Some([x0, y0]),
@@ -172,13 +166,8 @@ fn surfer_grid(text: &str) -> Result<StoredImage> {
 fn table(text: &str) -> Result<StoredImage> {
     let table = Table::read(text)?;
     if let Some(grid) = table.points_on_grid()? {
-        return image(
-            grid.values,
-            grid.size,
-            Some(grid.sides),
-            Some(grid.corner),
-            None,
-        );
+        let [sides, corner] = [grid.sides, grid.corner].map(Some);
+        return image(grid.values, grid.size, sides, corner, None);
     }
     let points = format!(
         "lines of {} numbers are rows of a matrix: they are no points on a grid",

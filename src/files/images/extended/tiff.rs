@@ -263,6 +263,33 @@ mod tests {
     }
 
     #[test]
+    fn heights_have_the_unit_of_the_pixels_which_is_told() {
+        let read = |description: &str| {
+            let mut file = Cursor::new(Vec::new());
+            let mut encoder = TiffEncoder::new(&mut file).unwrap();
+            let mut image = encoder.new_image::<colortype::Gray32Float>(8, 3).unwrap();
+            image.resolution(ResolutionUnit::Inch, Rational { n: 254, d: 1 });
+            let tags = image.encoder();
+            tags.write_tag(Tag::ImageDescription, description).unwrap();
+            let heights: Vec<f32> = (0..24).map(|i| i as f32).collect();
+            image.write_data(&heights).unwrap();
+            let stored = decode(&file.into_inner()).unwrap();
+            let read = stored.finish(&DecodeOptions::default()).unwrap();
+            let told = read.assumptions.iter().map(|one| one.words.clone());
+            (read.pixel_size, read.height_scale, told.collect::<Vec<_>>())
+        };
+        let (size, scale, told) = read("a scan");
+        assert!((size - 0.1).abs() < 1e-12 && scale == 1.0, "{size} {scale}");
+        assert_eq!(told, ["heights are in millimetres"]);
+        let (size, scale, told) = read("ImageJ=1.53\nunit=um\n");
+        assert!((size - 1e-3 / 254.0).abs() < 1e-12, "{size}");
+        assert_eq!(
+            (scale, &told[0][..]),
+            (1e-3, "heights are in the unit of the pixels' size")
+        );
+    }
+
+    #[test]
     fn a_reduced_first_image_is_that_of_a_raw_photo() {
         // As in DNG and NEF, whose full image lies in a directory below.
         let error = decode(&images(&[1])).unwrap_err();

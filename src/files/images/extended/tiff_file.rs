@@ -157,12 +157,20 @@ impl Directory {
 pub(crate) fn failed(error: TiffError) -> Error {
     match error {
         TiffError::UnsupportedError(TiffUnsupportedError::UnsupportedCompressionMethod(method)) => {
+            let number = method.to_u16();
+            let name = match number {
+                34712 => " (JPEG 2000)",
+                34887 => " (LERC)",
+                34925 => " (LZMA)",
+                50001 => " (WebP)",
+                50002 => " (JPEG XL)",
+                _ => "",
+            };
             unsupported(
                 Format::Tiff,
                 format!(
-                    "the compression {}; `gdal_translate -co COMPRESS=DEFLATE IN.tif OUT.tif` \
-                     writes one that is read",
-                    method.to_u16()
+                    "the compression {number}{name}; `gdal_translate -co COMPRESS=DEFLATE IN.tif OUT.tif` \
+                     writes one that is read"
                 ),
             )
         }

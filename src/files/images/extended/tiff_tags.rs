@@ -64,6 +64,7 @@ pub(super) fn read(
 ) -> Result<PixelTags> {
     let georeference = georeference(file)?;
     let mut assumptions = Vec::new();
+    let mut own_unit = None;
     let (sides, unit) = match &georeference {
         Some(map) => {
             let (sides, unit) = map_sides(map, size, &mut assumptions)?;
@@ -71,7 +72,15 @@ pub(super) fn read(
             let is_known = unit.is_some() || sides != [1.0; 2];
             (Some(sides).filter(|_| is_known), unit)
         }
-        None => resolution_sides(file)?.unzip(),
+        None => {
+            let resolution = resolution_sides(file)?;
+            own_unit = resolution
+                .map(|(_, unit)| unit)
+                .filter(|_| number_type.is_float());
+            resolution
+                .map(|(sides, _)| (sides, Unit::Millimetre))
+                .unzip()
+        }
     };
     let aspect = match unsigned(file, Tag::ResolutionUnit)? {
         Some(RESOLUTION_UNIT_NONE) => resolutions(file)?.map_or(1.0, |[x, y]| x / y),
@@ -91,6 +100,14 @@ pub(super) fn read(
         let unit = unit.or(of_map).unwrap_or(1.0);
         height_scale = Some(unit * height_scale.unwrap_or(1.0));
         offset *= unit;
+    }
+    if let (None, Some(unit)) = (height_scale, own_unit) {
+        height_scale = Some(unit);
+        let words = match unit {
+            1.0 => "heights are in millimetres",
+            _ => "heights are in the unit of the pixels' size",
+        };
+        assumptions.push(Assumption::new("heightUnit", words, "heightScale"));
     }
     let no_data = no_data(file)?;
     let inverted = unsigned(file, Tag::PhotometricInterpretation)? == Some(0);
@@ -215,16 +232,17 @@ pub(super) fn map_sides(
     ))
 }
 
-/// Width and height of the pixels by the resolution of a picture, and their unit.
-fn resolution_sides(file: &mut File) -> Result<Option<([f64; 2], Unit)>> {
-    if let Some(sides) = described(file).as_deref().and_then(ome_sides) {
-        return Ok(Some((sides, Unit::Millimetre)));
+/// Width and height of the pixels by the resolution of a picture, and the unit in which it is stated, all in millimetres; a
+/// resolution per inch or centimetre stands for 1.
+fn resolution_sides(file: &mut File) -> Result<Option<([f64; 2], f64)>> {
+    if let Some(found) = described(file).as_deref().and_then(ome_sides) {
+        return Ok(Some(found));
     }
     let Some([x, y]) = resolutions(file)? else {
         return Ok(None);
     };
     if let Some(unit) = described(file).as_deref().and_then(imagej_unit) {
-        return Ok(Some(([unit / x, unit / y], Unit::Millimetre)));
+        return Ok(Some(([unit / x, unit / y], unit)));
     }
     let per = match unsigned(file, Tag::ResolutionUnit)?.unwrap_or(PER_INCH) {
         // Without a unit, resolutions state the proportions of a pixel only.
@@ -238,7 +256,7 @@ fn resolution_sides(file: &mut File) -> Result<Option<([f64; 2], Unit)>> {
             ));
         }
     };
-    Ok(Some(([per / x, per / y], Unit::Millimetre)))
+    Ok(Some(([per / x, per / y], 1.0)))
 }
 
 /// Numbers of pixels per unit of length across and down a picture, if it states both.
@@ -262,19 +280,20 @@ fn imagej_unit(description: &str) -> Option<f64> {
     lines().find_map(|line| millimetres_in(line.strip_prefix("unit=")?))
 }
 
-/// Width and height of a pixel in millimetres by a microscope's description of a picture (OME-XML), where micrometres are the unit
-/// that goes without saying.
-fn ome_sides(description: &str) -> Option<[f64; 2]> {
+/// Width and height of a pixel and the unit of the width in millimetres by a microscope's description of a picture (OME-XML),
+/// where micrometres are the unit that goes without saying.
+fn ome_sides(description: &str) -> Option<([f64; 2], f64)> {
     let attribute = |name: &str| {
         let (_, value) = description.split_once(&format!(" {name}=\""))?;
         value.split('"').next()
     };
+    let unit = |name: &str| attribute(&format!("{name}Unit")).map_or(Some(1e-3), millimetres_in);
     let side = |name: &str| {
-        let unit = attribute(&format!("{name}Unit")).map_or(Some(1e-3), millimetres_in)?;
-        let side = unit * attribute(name)?.parse::<f64>().ok()?;
+        let side = unit(name)? * attribute(name)?.parse::<f64>().ok()?;
         (side.is_finite() && side > 0.0).then_some(side)
     };
-    (description.contains("<OME")).then_some([side("PhysicalSizeX")?, side("PhysicalSizeY")?])
+    let [x, y] = ["PhysicalSizeX", "PhysicalSizeY"];
+    (description.contains("<OME")).then_some(([side(x)?, side(y)?], unit(x)?))
 }
 
 /// Length of the unit of heights in metres, by the coordinate system or GDAL's metadata.

@@ -29,7 +29,11 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     let samples = match file.read_image().map_err(failed)? {
         DecodingResult::U8(samples) => samples,
         DecodingResult::U16(samples) => samples.iter().map(|v| (v >> 8) as u8).collect(),
-        _ => return Err(unsupported(Format::Tiff, refused(colour))),
+        _ => {
+            let reason = "floats, signed integers or integers of more than 16 bits, which are no photo's; `fit` and `info` take \
+                          them as heights, and so does `dewarp` beside the photo that shows them (`--texture`)";
+            return Err(unsupported(Format::Tiff, reason));
+        }
     };
     let samples = match colour {
         ColorType::Gray(8 | 16)
@@ -51,7 +55,10 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
         ColorType::CMYK(8 | 16) => (samples.as_chunks::<4>().0.iter())
             .flat_map(|[c, m, y, k]| [c, m, y].map(|ink| printed(*ink, *k)))
             .collect(),
-        other => return Err(unsupported(Format::Tiff, refused(other))),
+        other => {
+            let reason = format!("pixels of kind {other:?}; photos have grey, RGB or CMYK ones");
+            return Err(unsupported(Format::Tiff, reason));
+        }
     };
     pixels.push_rows(&samples);
     let mut tags = PhotoTags::read(None);
@@ -59,13 +66,6 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
         tags.orientation = turn;
     }
     pixels.finish(&tags)
-}
-
-/// Reason why pixels of a kind are not read.
-fn refused(colour: ColorType) -> String {
-    format!(
-        "pixels of kind {colour:?}; if they are heights, read them as such; photos have unsigned pixels of 8 or 16 bits, grey, RGB or CMYK"
-    )
 }
 
 /// Light of one colour that is left by an ink and by black.

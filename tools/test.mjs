@@ -5,6 +5,7 @@
 import { compileWasm } from './build/wasm.mjs';
 import { setupTests } from './setup.mjs';
 import { main, Problem, describe } from './util/problem.mjs';
+import { shownLater } from './util/process.mjs';
 import { steps } from './test/steps.mjs';
 import { Skip } from './test/step.mjs';
 
@@ -17,38 +18,51 @@ await main(async () => {
   if (chosen.length === 0) {
     throw new Problem(`No test has such a name: there are ${among.map(({ name }) => name).join(', ')}.`);
   }
-  console.log(`${chosen.length} steps: about ${duration(total(chosen))} on two idle cores after \`npm start\`, longer where more is to be compiled.`);
+  console.log(`${chosen.length} steps: less than ${duration(total(chosen))} on two idle cores after \`npm start\`, longer where more is to be compiled.`);
   // The tools and the wasm are compiled side by side.
   const compile = chosen.some(({ name }) => name === 'build') ? compileWasm : undefined;
   const context = await timed('Set-up', () => setupTests(compile));
 
-  /** @type {Map<import('./test/step.mjs').Step, ReturnType<typeof attempt>>} */
-  const begun = new Map(chosen.filter(({ early }) => early).map((step) => [step, attempt(() => step.run(context))]));
+  /** The steps that run beside the others, each after the one before. */
+  let last = Promise.resolve();
+  const begun = new Map(chosen.filter(({ beside }) => beside).map((step) => {
+    const own = { text: '', isShown: false };
+    const outcome = last.then(() => shownLater.run(own, () => attempt(step, context)));
+    last = outcome.then(() => {});
+    return [step, { own, outcome }];
+  }));
   /** @type {Outcome[]} */
   const outcomes = [];
   for (const step of chosen) {
-    const start = performance.now();
     heading(`${step.name}: ${step.what} (about ${duration(step.seconds)})`);
-    const outcome = await (begun.get(step) ?? attempt(() => step.run(context)));
-    const seconds = (performance.now() - start) / 1000;
-    console.log(`${outcome.state} in ${seconds.toFixed(1)} s${outcome.remark && `: ${outcome.remark}`}`);
-    outcomes.push({ name: step.name, seconds, ...outcome });
+    const started = begun.get(step);
+    if (started) {
+      process.stdout.write(started.own.text);
+      started.own.isShown = true;
+    }
+    const outcome = await (started?.outcome ?? attempt(step, context));
+    console.log(`${outcome.state} in ${outcome.seconds.toFixed(1)} s${outcome.remark && `: ${outcome.remark}`}`);
+    outcomes.push(outcome);
   }
   summary(outcomes);
 });
 
 /**
- * @param {() => Promise<void>} test
- * @returns {Promise<Pick<Outcome, 'state' | 'remark'>>}
+ * @param {import('./test/step.mjs').Step} step
+ * @param {import('./test/step.mjs').Context} context
+ * @returns {Promise<Outcome>}
  */
-async function attempt(test) {
+async function attempt({ name, run }, context) {
+  const start = performance.now();
+  /** @param {Outcome['state']} state @param {string} [remark] @returns {Outcome} */
+  const ended = (state, remark = '') => ({ name, state, remark, seconds: (performance.now() - start) / 1000 });
   try {
-    await test();
-    return { state: 'passed', remark: '' };
+    await run(context);
+    return ended('passed');
   } catch (error) {
     // In CI everything has to be there, so that nothing goes untested unnoticed.
-    if (error instanceof Skip && !process.env.CI) return { state: 'skipped', remark: error.message };
-    return { state: 'failed', remark: describe(error) };
+    if (error instanceof Skip && !process.env.CI) return ended('skipped', error.message);
+    return ended('failed', describe(error));
   }
 }
 

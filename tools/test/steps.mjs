@@ -1,6 +1,6 @@
 /**
- * Every test there is, in the order of what fails fastest. The seconds are those on two cores after `npm start`
- * (`benches/tests.md`).
+ * Every test there is, in the order of what fails fastest. Those of JavaScript run beside those of Rust. The seconds are those on two
+ * idle cores after `npm start`, of each step by itself (`benches/tests.md`).
  */
 import { buildInline } from '../build/inline.mjs';
 import { buildThreads } from '../build/threads.mjs';
@@ -22,7 +22,7 @@ export const steps = [
   {
     name: 'build',
     seconds: 20,
-    early: true,
+    beside: true,
     what: 'the package, and the size of its wasm',
     run: async (context) => {
       await buildVendor();
@@ -31,9 +31,9 @@ export const steps = [
       await buildInline();
     },
   },
-  { name: 'wasm-node', seconds: 7, what: 'the wasm in Node', run: inNode('wasm_node') },
-  { name: 'wasm-browser', seconds: 5, what: "the wasm in Chromium's main thread", run: inBrowser('wasm_browser') },
-  { name: 'wasm-worker', seconds: 5, what: 'the wasm in a dedicated worker in Chromium', run: inBrowser('wasm_worker') },
-  { name: 'js', seconds: 85, what: 'the package and its command in Node', run: nodeTests },
-  { name: 'page', seconds: 190, what: 'the page in Chromium', run: pageTests },
+  { name: 'wasm-node', seconds: 7, beside: true, what: 'the wasm in Node', run: inNode('wasm_node') },
+  { name: 'wasm-browser', seconds: 5, beside: true, what: "the wasm in Chromium's main thread", run: inBrowser('wasm_browser') },
+  { name: 'wasm-worker', seconds: 5, beside: true, what: 'the wasm in a dedicated worker in Chromium', run: inBrowser('wasm_worker') },
+  { name: 'js', seconds: 85, beside: true, what: 'the package and its command in Node', run: nodeTests },
+  { name: 'page', seconds: 190, beside: true, what: 'the page in Chromium', run: pageTests },
 ];

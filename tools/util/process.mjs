@@ -1,4 +1,5 @@
 /** Running other programs: time limits, captured output, and nothing left behind. */
+import { AsyncLocalStorage } from 'node:async_hooks';
 import { spawn } from 'node:child_process';
 
 /** @typedef {Record<string, string | undefined>} Env */
@@ -17,6 +18,9 @@ import { spawn } from 'node:child_process';
  * @property {string} output standard output and error together
  * @property {string} failure why it is not ok, in a few words
  */
+
+/** What is shown of programs that run beside others: kept until it is their turn. @type {AsyncLocalStorage<{ text: string, isShown: boolean }>} */
+export const shownLater = new AsyncLocalStorage();
 
 /** Ends everything a child has started: with a process group of its own that is one signal. */
 const groups = process.platform !== 'win32';
@@ -58,6 +62,7 @@ export function run(command, args, { env = process.env, cwd, limit, show = false
       env, cwd, detached: groups, windowsHide: true, stdio: ['ignore', 'pipe', 'pipe'],
     });
     running.add(child);
+    const kept = shownLater.getStore();
     let output = '';
     let late = false;
     const timer = limit && setTimeout(() => {
@@ -72,7 +77,8 @@ export function run(command, args, { env = process.env, cwd, limit, show = false
       from.setEncoding('utf8');
       from.on('data', (text) => {
         output += text;
-        if (show) to.write(text);
+        if (show && kept?.isShown === false) kept.text += text;
+        else if (show) to.write(text);
       });
     }
 

@@ -23,7 +23,7 @@ const SURELY_NEARER = 0.1;
 export function parseCamera(given, images = []) {
   const sizes = sizesOf(images);
   const cameras = camerasOf(cameraTree(given), sizes);
-  if (cameras.length === 0) throw problem(`there is no camera in it: it should have ${FORMS}`);
+  if (cameras.length === 0) throw new DevelopableError('FORMAT', `there is no camera in it: it should have ${FORMS}`);
   const fits = cameras.map(({ camera, lens }) => {
     const stated = camera.width !== undefined && camera.height !== undefined;
     const ranked = sizes.map((size) => ({ size, off: stated ? misfit(camera, size) : axisOff(camera, size) }));

@@ -1,6 +1,7 @@
 /** Camera of depths: back-projects them to a mesh in space, which is then sampled from a view. */
 import { runInWorker } from '../worker-task.js';
 import { element, onFilesChosen } from '../dom.js';
+import { hasCode } from '../error-messages.js';
 import { above, between, fieldsOf } from '../fields.js';
 import { number } from '../format.js';
 import { DEPTH_WORDS } from '../messages.js';
@@ -61,17 +62,13 @@ export function cameraPanel(session, openLoadedMesh) {
       });
     else panel.hidden = true;
   });
-  /** Whether a file has a camera, of whatever image. @param {File} file */
-  const isIn = async (file) => {
-    try {
-      session.api.parseCamera(await file.arrayBuffer());
-      return true;
-    } catch {
-      return false;
-    }
-  };
-  /** Reads the camera from a file. @param {File} file */
-  const readCamera = async (file) => {
+  /**
+   * Reads the camera from a file.
+   * @param {File} file
+   * @param {boolean} [mayBeOther] whether the file may be something else
+   * @returns {Promise<boolean | undefined>} whether it was read; undefined if there is no camera in it, which then is no error
+   */
+  const readCamera = async (file, mayBeOther = false) => {
     const input = depthInput();
     if (!input) return false;
     try {
@@ -84,6 +81,7 @@ export function cameraPanel(session, openLoadedMesh) {
       describe();
       return true;
     } catch (error) {
+      if (mayBeOther && hasCode(error, 'FORMAT')) return undefined;
       session.fail(`“${file.name}” could not be used`, error);
       return false;
     }
@@ -120,7 +118,7 @@ export function cameraPanel(session, openLoadedMesh) {
     depthCheckbox.checked = session.input?.depthSource !== undefined;
     panel.hidden = !depthCheckbox.checked;
   });
-  return { show, isIn, readCamera, backProject };
+  return { show, readCamera, backProject };
 }
 
 /** The smallest and the largest depth. @param {Float64Array} data */

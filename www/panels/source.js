@@ -86,7 +86,8 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
     if (isMesh(chosen.name) || isMeshFormat(format)) return openMesh(chosen, [], format);
     if (kind === 'camera') {
       // Numbers may be a camera of the depths that are open, or heights.
-      if (session.input?.kind && (format !== 'text' || await camera.isIn(chosen))) return camera.readCamera(chosen);
+      const isCamera = session.input?.kind ? await camera.readCamera(chosen, format === 'text') : undefined;
+      if (isCamera !== undefined) return isCamera;
       if (format === undefined) {
         showNotice(FILE_WORDS.unread(chosen.name, unreadableKindInWords(chosen)));
         return false;

@@ -146,22 +146,15 @@ const HEAD_BYTES: usize = 1000;
 /// Returns the name of a format that is not read, and what to do; `None` for files of other or unknown formats.
 pub(super) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     let head = &bytes[..bytes.len().min(HEAD_BYTES)];
-    let is_in = |magic: &[u8]| match magic {
-        [b'<', ..] => (0..head.len()).any(|at| begins(&head[at..], magic)),
-        _ => begins(head, magic),
-    };
     let archive = head.starts_with(b"PK\x03\x04");
-    let known = if archive {
-        &FOREIGN_ARCHIVES[..]
-    } else {
-        &FOREIGN_FORMATS[..]
+    let known = match archive {
+        true => &FOREIGN_ARCHIVES[..],
+        false => &FOREIGN_FORMATS[..],
     };
-    let is_told = |part: &&[u8]| {
-        if archive {
-            contains(bytes, part)
-        } else {
-            is_in(part)
-        }
+    let is_told = |part: &&[u8]| match part {
+        _ if archive => contains(bytes, part),
+        [b'<', ..] => (0..head.len()).any(|at| begins(&head[at..], part)),
+        _ => begins(head, part),
     };
     let found = known.iter().find(|(.., parts)| parts.iter().any(is_told))?;
     Some((found.0, found.1))
@@ -175,15 +168,12 @@ pub(super) fn refused(bytes: &[u8], purpose: Purpose) -> Error {
     }
     let image = image_format(bytes);
     let (name, advice) = if let Some(mesh) = mesh_format(bytes, image) {
-        let advice = format!(
-            "it is a {}: read it as one, by a name that ends in .{}",
-            if mesh == MeshFormat::Xyz {
-                "point cloud"
-            } else {
-                "mesh"
-            },
-            mesh.name()
-        );
+        let kind = match mesh {
+            MeshFormat::Xyz => "point cloud",
+            _ => "mesh",
+        };
+        let name = mesh.name();
+        let advice = format!("it is a {kind}: read it as one, by a name that ends in .{name}");
         (mesh.title(), advice)
     } else if let Some(image) = image {
         let advice = match purpose {

@@ -197,17 +197,11 @@ fn cells(line: &str, decimal_commas: bool) -> Result<Vec<f64>> {
 pub(super) fn numbers(text: &str, decimal_commas: bool) -> Result<Vec<f64>> {
     let divides =
         |letter: char| letter.is_whitespace() || letter == ';' || letter == ',' && !decimal_commas;
-    text.split(divides)
-        .filter(|word| !word.is_empty())
-        .map(|word| {
-            let plain = if decimal_commas {
-                word.replace(',', ".")
-            } else {
-                word.to_owned()
-            };
-            plain
-                .parse()
-                .map_err(|_| damaged(Format::Text, format!("`{word}` is no number")))
-        })
-        .collect()
+    let point = if decimal_commas { ',' } else { '.' };
+    let number = |word: &str| {
+        let number = word.replace(point, ".").parse();
+        number.map_err(|_| damaged(Format::Text, format!("`{word}` is no number")))
+    };
+    let words = text.split(divides).filter(|word| !word.is_empty());
+    words.map(number).collect()
 }

@@ -165,47 +165,32 @@ mod tests {
                 (false, false) => metre * (1.6 + 0.002 * row),
             }
         };
-        assert_eq!(
-            told(NumberType::U16, "a.png", scene(1000.0, 0.0)),
-            Some(Unit::Millimetre)
-        );
-        assert_eq!(
-            told(NumberType::F32, "a.exr", scene(1.0, 1e10)),
-            Some(Unit::Metre)
-        );
-        assert_eq!(
-            told(NumberType::F32, "a_depth.exr", scene(1000.0, 0.0)),
-            Some(Unit::Millimetre)
-        );
+        let [mm, m] = [Unit::Millimetre, Unit::Metre].map(Some);
+        assert_eq!(told(NumberType::U16, "a.png", scene(1000.0, 0.0)), mm);
+        assert_eq!(told(NumberType::F32, "a.exr", scene(1.0, 1e10)), m);
+        let millimetres = scene(1000.0, 0.0);
+        assert_eq!(told(NumberType::F32, "a_depth.exr", millimetres), mm);
         assert_eq!(told(NumberType::U8, "grey.png", scene(100.0, 0.0)), None);
         // A ramp from 0, terrain, and depths that only their name tells.
-        assert_eq!(
-            told(NumberType::F32, "a.npy", |col, row| 0.1 * col + 0.15 * row),
-            None
-        );
+        let ramp = |col, row| 0.1 * col + 0.15 * row;
+        assert_eq!(told(NumberType::F32, "a.npy", ramp), None);
         let hills =
             |x: f64, y: f64| 900.0 + 300.0 * (x / 17.0).sin() + 200.0 * (y / 13.0 + x / 31.0).cos();
         assert_eq!(told(NumberType::U16, "dem.tif", hills), None);
-        assert_eq!(
-            told(NumberType::U16, "Depth.png", |col, _| 800.0 + col),
-            Some(Unit::Millimetre)
-        );
-        assert_eq!(told(NumberType::U16, "a.png", |col, _| 800.0 + col), None);
+        let slope = |col, _| 800.0 + col;
+        assert_eq!(told(NumberType::U16, "Depth.png", slope), mm);
+        assert_eq!(told(NumberType::U16, "a.png", slope), None);
     }
 
     #[test]
     fn zeros_among_depths_are_none() {
         let mut depths = [0.0, 800.0, 65_535.0, f64::NAN, 900.0];
-        let words = without_missing(&mut depths, Unit::Millimetre)
-            .unwrap()
-            .words;
+        let told = without_missing(&mut depths, Unit::Millimetre).unwrap();
+        let words = told.words;
         assert!(
             words.contains("in mm") && words.contains("(2 pixels)"),
             "{words}"
         );
-        assert_eq!(
-            depths.map(|depth| depth.is_nan()),
-            [true, false, true, true, false]
-        );
+        assert_eq!(depths.map(f64::is_nan), [true, false, true, true, false]);
     }
 }

@@ -99,16 +99,14 @@ fn is_marker(value: f64) -> bool {
         let digits = format!("{}", value.abs()).replace('.', "");
         digits.len() >= 3 && digits.bytes().all(|digit| digit == b'9')
     };
-    let is_limit = || {
-        [65_504.0, 65_535.0, 32_767.0, 32_768.0, 2_147_483_647.0]
-            .iter()
-            .any(|limit| (value.abs() - limit).abs() <= 1.0)
-    };
-    value == 0.0
-        || value == -1.0
+    let limits = [65_504.0, 65_535.0, 32_767.0, 32_768.0, 2_147_483_647.0];
+    let is_limit = limits
+        .iter()
+        .any(|limit| (value.abs() - limit).abs() <= 1.0);
+    [0.0, -1.0].contains(&value)
         || value.abs() >= MIN_IMPOSSIBLE_MAGNITUDE
+        || is_limit
         || is_nines()
-        || is_limit()
 }
 
 #[cfg(test)]

@@ -119,51 +119,28 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         &Channels { colours, alpha },
         |i, k| number_type.value(&samples[stride * i + size * k..], true),
     )?;
-    let recorded = RecordedMetadata::read(&reader.info().uncompressed_latin1_text)?;
+    let texts = &reader.info().uncompressed_latin1_text;
     Ok(StoredImage {
-        sides: recorded.pixel_size.and_then(recorded_sides),
-        no_data: recorded.no_data,
-        height_scale: recorded.scale,
-        offset: recorded.offset.unwrap_or(0.0),
+        sides: recorded(texts, PIXEL_SIZE, true)?.and_then(recorded_sides),
+        no_data: recorded(texts, NO_DATA, false)?,
+        height_scale: recorded(texts, HEIGHT_SCALE_KEYWORD, true)?,
+        offset: recorded(texts, HEIGHT_OFFSET_KEYWORD, false)?.unwrap_or(0.0),
         ..StoredImage::new(Format::Png, (width, height), values, number_type)
     })
 }
 
-/// Values that this library records in the text chunks of a PNG file: height scale and offset, pixel size, level of no
-/// data.
-#[derive(Default)]
-struct RecordedMetadata {
-    scale: Option<f64>,
-    offset: Option<f64>,
-    pixel_size: Option<f64>,
-    no_data: Option<f64>,
-}
-
-impl RecordedMetadata {
-    fn read(chunks: &[TEXtChunk]) -> Result<Self> {
-        let mut recorded = RecordedMetadata::default();
-        for chunk in chunks {
-            let (place, positive) = match chunk.keyword.as_str() {
-                HEIGHT_SCALE_KEYWORD => (&mut recorded.scale, true),
-                PIXEL_SIZE => (&mut recorded.pixel_size, true),
-                HEIGHT_OFFSET_KEYWORD => (&mut recorded.offset, false),
-                NO_DATA => (&mut recorded.no_data, false),
-                _ => continue,
-            };
-            let number = chunk.text.trim().parse().ok();
-            *place = number.filter(|v: &f64| v.is_finite() && (*v > 0.0 || !positive));
-            if place.is_none() {
-                return Err(damaged(
-                    Format::Png,
-                    format!(
-                        "its text `{}` is `{}`, no sound number",
-                        chunk.keyword, chunk.text
-                    ),
-                ));
-            }
-        }
-        Ok(recorded)
-    }
+/// The number that this library has recorded in a text chunk with a keyword, which may have to be positive.
+fn recorded(chunks: &[TEXtChunk], keyword: &str, is_positive: bool) -> Result<Option<f64>> {
+    let Some(chunk) = chunks.iter().rfind(|chunk| chunk.keyword == keyword) else {
+        return Ok(None);
+    };
+    let text = &chunk.text;
+    let number = text.trim().parse().ok();
+    let number = number.filter(|v: &f64| v.is_finite() && (*v > 0.0 || !is_positive));
+    let reason = || format!("its text `{keyword}` is `{text}`, no sound number");
+    number
+        .map(Some)
+        .ok_or_else(|| damaged(Format::Png, reason()))
 }
 
 pub(super) fn failed(error: DecodingError) -> Error {

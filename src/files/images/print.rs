@@ -82,12 +82,18 @@ impl PhotoRows for Photo<'_> {
 
 /// Whether a photo has black and white pixels only, all of them opaque.
 pub(super) fn is_bilevel(photo: &impl PhotoRows) -> Result<bool> {
+    all_pixels(photo, |pixel| {
+        matches!(pixel, [0, 0, 0, 255] | [255, 255, 255, 255])
+    })
+}
+
+/// Whether all pixels of a photo are of a kind.
+fn all_pixels(photo: &impl PhotoRows, is_one: impl Fn(&[u8; 4]) -> bool) -> Result<bool> {
     let [width, height] = photo.size();
     let mut line = try_filled("PNG file", 4 * width, 0)?;
     Ok((0..height).all(|row| {
         photo.read(row, &mut line);
-        (line.as_chunks().0.iter())
-            .all(|pixel| matches!(pixel, [0, 0, 0, 255] | [255, 255, 255, 255]))
+        line.as_chunks().0.iter().all(&is_one)
     }))
 }
 
@@ -102,11 +108,7 @@ pub fn write_photo(photo: &impl PhotoRows, options: &PhotoOptions) -> Result<Vec
     let dots = options.dots()?;
     let mut line = try_filled("PNG file", 4 * width, 0)?;
     let bilevel = is_bilevel(photo)?;
-    let opaque = bilevel
-        || (0..height).all(|row| {
-            photo.read(row, &mut line);
-            line.chunks_exact(4).all(|pixel| pixel[3] == u8::MAX)
-        });
+    let opaque = bilevel || all_pixels(photo, |pixel| pixel[3] == u8::MAX)?;
     let mut file = Buffer::default();
     let mut encoder = Encoder::new(&mut file, width as u32, height as u32);
     if bilevel {
@@ -115,11 +117,8 @@ pub fn write_photo(photo: &impl PhotoRows, options: &PhotoOptions) -> Result<Vec
         encoder.set_deflate_compression(DeflateCompression::Level(BILEVEL_COMPRESSION));
         encoder.set_filter(Prediction::NoFilter);
     } else {
-        encoder.set_color(if opaque {
-            ColorType::Rgb
-        } else {
-            ColorType::Rgba
-        });
+        let colour = [ColorType::Rgba, ColorType::Rgb][usize::from(opaque)];
+        encoder.set_color(colour);
         encoder.set_depth(BitDepth::Eight);
         // Higher compression would hardly shrink a photo, because of its noise, at ten times the cost.
         encoder.set_deflate_compression(DeflateCompression::Level(2));
@@ -175,14 +174,11 @@ pub fn write_photo_jpeg(photo: &impl PhotoRows, options: &PhotoOptions) -> Resul
     }
     let size = photo.size();
     let [Ok(width), Ok(height)] = size.map(u16::try_from) else {
-        return Err(unsupported(
-            "JPEG",
-            format!(
-                "{} × {} pixels are more than the 65535 along a side that it can have; choose a \
-                 lower resolution, or PNG",
-                size[0], size[1]
-            ),
-        ));
+        let [width, height] = size;
+        let reason = format!(
+            "{width} × {height} pixels are more than the 65535 along a side that it can have; choose a lower resolution, or PNG"
+        );
+        return Err(unsupported("JPEG", reason));
     };
     let density = options.dots()?.and_then(density);
     let mut file = Buffer::default();
@@ -205,19 +201,17 @@ pub fn write_photo_jpeg(photo: &impl PhotoRows, options: &PhotoOptions) -> Resul
 /// Converts a resolution, in pixels per millimetre, to the pixel density that the header of a JPEG file (JFIF) states;
 /// `None` if JFIF cannot state it.
 fn density(dots_per_millimetre: f64) -> Option<PixelDensity> {
-    let units = [
-        (25.4, PixelDensityUnit::Inches),
-        (10.0, PixelDensityUnit::Centimeters),
-    ];
-    let stated = units.map(|(millimetres, unit)| {
+    let stated = |millimetres: f64, unit| {
         let dots = dots_per_millimetre * millimetres;
         let whole = dots.round().clamp(1.0, f64::from(u16::MAX));
         (((whole / dots).ln()).abs(), whole as u16, unit)
-    });
-    let (error, dots, unit) = if stated[0].0 <= stated[1].0 {
-        stated[0]
+    };
+    let inches = stated(25.4, PixelDensityUnit::Inches);
+    let centimetres = stated(10.0, PixelDensityUnit::Centimeters);
+    let (error, dots, unit) = if inches.0 <= centimetres.0 {
+        inches
     } else {
-        stated[1]
+        centimetres
     };
     (error < 0.3).then_some(PixelDensity {
         density: (dots, dots),

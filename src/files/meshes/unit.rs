@@ -34,16 +34,11 @@ impl FileUnit {
     pub fn new(name: &str) -> Result<Self> {
         let length = millimetres_in(name)
             .ok_or_else(|| Error::option("unit", name, "must be `mm`, `cm`, `m` or `inch`"))?;
-        Ok(match length == Unit::Metre.millimetres() {
-            true => FileUnit {
-                factor: 1.0,
-                unit: Unit::Metre,
-            },
-            false => FileUnit {
-                factor: length,
-                unit: Unit::Millimetre,
-            },
-        })
+        let (factor, unit) = match length == Unit::Metre.millimetres() {
+            true => (1.0, Unit::Metre),
+            false => (length, Unit::Millimetre),
+        };
+        Ok(FileUnit { factor, unit })
     }
 }
 
@@ -80,24 +75,20 @@ pub(super) fn assumed_unit(mesh: &Mesh) -> (Option<Unit>, Assumption) {
     let distance = (low.iter().zip(&high))
         .map(|(low, high)| low.max(-high))
         .fold(0.0, f64::max);
+    let none = format!("lengths have no unit: a longest side of {side} is too");
     let (unit, words) = if distance > MIN_MAP_DISTANCE {
         let words = format!("lengths are metres: coordinates of {distance:.0} are those of a map");
         (Some(Unit::Metre), words)
     } else if longest > MAX_MILLIMETRE_SIDE {
+        (None, format!("{none} long for millimetres"))
+    } else if longest < MIN_MILLIMETRE_SIDE {
         (
             None,
-            format!("lengths have no unit: a longest side of {side} is too long for millimetres"),
+            format!("{none} short for millimetres, and may be inches or metres"),
         )
-    } else if longest < MIN_MILLIMETRE_SIDE {
-        let words = format!(
-            "lengths have no unit: a longest side of {side} is too short for millimetres, and may be inches or metres"
-        );
-        (None, words)
     } else {
-        (
-            Some(Unit::Millimetre),
-            format!("lengths are millimetres: the longest side is {side} mm"),
-        )
+        let words = format!("lengths are millimetres: the longest side is {side} mm");
+        (Some(Unit::Millimetre), words)
     };
     (unit, Assumption::new(CODE, words, CODE))
 }

@@ -45,16 +45,13 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     };
 
     let channels = header.channels.clone();
-    let wanted: Vec<usize> = chosen
-        .heights
-        .iter()
-        .chain(&chosen.alpha)
+    let wanted: Vec<usize> = (chosen.heights.iter().chain(&chosen.alpha))
         .copied()
         .collect();
-    let mut planes = Vec::new();
-    for _ in &wanted {
-        planes.push(try_filled("EXR image", len, f64::NAN)?);
-    }
+    let planes = wanted
+        .iter()
+        .map(|_| try_filled("EXR image", len, f64::NAN));
+    let mut planes = planes.collect::<Result<Vec<_>>>()?;
     let mut missing = wanted.len() * len;
     let mut blocks = reader
         .filter_chunks(false, |_, tile, block| {
@@ -129,30 +126,20 @@ fn choose_layer(layers: &[Header]) -> Result<(usize, &Header, ChosenChannels)> {
             .flat_map(|(_, header)| &header.channels.list)
             .map(|channel| format!("`{}`", channel.name))
             .collect();
-        return Err(unsupported(
-            Format::Exr,
-            if names.is_empty() {
-                "deep data; only flat images are read".into()
-            } else {
-                format!(
-                    "its channels are {}; `Z`, `depth` or `Y` is read, grey `R`, `G`, `B`, or the \
-                     only one there is",
-                    names.join(", ")
-                )
-            },
-        ));
+        let reason = match names[..] {
+            [] => "deep data; only flat images are read".into(),
+            _ => format!(
+                "its channels are {}; `Z`, `depth` or `Y` is read, grey `R`, `G`, `B`, or the only one there is",
+                names.join(", ")
+            ),
+        };
+        return Err(unsupported(Format::Exr, reason));
     };
     // The decoder assumes longer lines than subsampled channels have.
-    if header
-        .channels
-        .list
-        .iter()
-        .any(|c| c.sampling != Vec2(1, 1))
-    {
-        return Err(unsupported(
-            Format::Exr,
-            "subsampled channels; write it with one sample for each pixel",
-        ));
+    let is_plain = |channel: &ChannelDescription| channel.sampling == Vec2(1, 1);
+    if !header.channels.list.iter().all(is_plain) {
+        let reason = "subsampled channels; write it with one sample for each pixel";
+        return Err(unsupported(Format::Exr, reason));
     }
     Ok((i, header, chosen))
 }

@@ -65,15 +65,12 @@ pub(super) fn decode(bytes: &[u8], array: Option<&str>) -> Result<StoredImage> {
     let name = match (array, names.as_slice()) {
         (Some(wanted), names) if names.iter().any(|name| name == wanted) => wanted,
         (None, [only]) => only,
-        (Some(wanted), names) => {
-            let reason = format!("it has no array `{wanted}`, only {}", listed(names));
-            return Err(unsupported(Format::Npz, reason));
-        }
-        (None, names) => {
-            let reason = format!(
-                "it holds {}; choose one by the option `array`",
-                listed(names)
-            );
+        (wanted, names) => {
+            let there = listed(names);
+            let reason = match wanted {
+                Some(wanted) => format!("it has no array `{wanted}`, only {there}"),
+                None => format!("it holds {there}; choose one by the option `array`"),
+            };
             return Err(unsupported(Format::Npz, reason));
         }
     };

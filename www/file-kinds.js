@@ -5,7 +5,7 @@ const MESH_ENDING = /\.(obj|ply|stl|glb|gltf|3mf|off)$/i;
 const MATERIAL_ENDING = /\.mtl$/i;
 const HEIGHTS_ENDING = /\.(tiff?|exr|pfm|npy|npz)$/i;
 const PICTURE_ENDING = /\.(png|jpe?g|webp|avif|heic|gif|bmp)$/i;
-const CAMERA_ENDING = /\.(json|csv|txt|ya?ml)$/i;
+const CAMERA_ENDING = /\.(json|csv|txt|ya?ml|xml|conf|ini)$/i;
 /** Names of the formats of meshes, which contents tell. */
 const MESH_FORMATS = ['obj', 'ply', 'stl', 'gltf', '3mf', 'off', 'xyz'];
 
@@ -15,8 +15,8 @@ const UNREADABLE_KINDS = [
   [/\.(xlsx?|ods|numbers)$/i, 'a spreadsheet'],
   [/\.(pptx?|odp|key)$/i, 'a presentation'],
   [/\.pdf$/i, 'a PDF; take a photo of its page, or save the page as a PNG'],
-  [/\.(json|ya?ml|csv)$/i, 'a text without heights; if it is a camera, open it together with its depths'],
-  [/\.(txt|md|html?|xml|log)$/i, 'a text'],
+  [/\.(json|ya?ml|csv|xml|conf|ini)$/i, 'a text without heights; if it is a camera, open it together with its depths'],
+  [/\.(txt|md|html?|log)$/i, 'a text'],
   [/\.(zip|rar|7z|gz|tar)$/i, 'an archive; unpack it first'],
   [/\.(mp4|mov|avi|mkv|webm)$/i, 'a video'],
   [/\.(mp3|wav|m4a|flac)$/i, 'a sound'],

@@ -18,7 +18,9 @@ const depths = (beside) => grid(256, 192, (col, row) => meets(depthCamera, col, 
 const photo = dottedPhoto();
 const coloured = png({ width: 16, height: 16, data: Uint8Array.from({ length: 1024 }, (_, i) => [200, 100, 50, 255][i % 4]) });
 const { width, height, fx, fy, cx, cy } = camera;
-const numbers = Buffer.from(JSON.stringify({ w: width, h: height, K: [fx, 0, 0, 0, fy, 0, cx, cy, 1] }));
+/** The photo's camera as OpenCV writes it. */
+const calibration = Buffer.from(`<?xml version="1.0"?>\n<opencv_storage>\n<image_width>${width}</image_width>\n<image_height>${height}</image_height>\n` +
+  `<camera_matrix type_id="opencv-matrix">\n<rows>3</rows><cols>3</cols><dt>d</dt>\n<data>\n${fx} 0. ${cx} 0. ${fy} ${cy} 0. 0. 1.</data></camera_matrix>\n</opencv_storage>\n`);
 
 /** Whether the dots of the photo are seen on the surface. @param {Page} page */
 async function dotsOnSurface(page) {
@@ -29,7 +31,7 @@ async function dotsOnSurface(page) {
 }
 
 doorTest('depths, photo and camera in one drop are a surface with the photo on it', async (page) => {
-  await runBy(page, () => dropAll(page, { 'IMG_1.png': photo, 'depth.npy': npy(256, depths(0)), 'camera.json': numbers, 'notes.md': Buffer.from('a page') }));
+  await runBy(page, () => dropAll(page, { 'IMG_1.png': photo, 'depth.npy': npy(256, depths(0)), 'camera.xml': calibration, 'notes.md': Buffer.from('a page') }));
   await page.getByRole('alert').filter({ hasText: 'Left out: “notes.md”' }).waitFor();
   assert.equal(await page.locator('#mesh-name').innerText(), 'depth (depths)');
   assert.ok(await dotsOnSurface(page));

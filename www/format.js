@@ -107,6 +107,9 @@ export function areaUnit(unit, power = '²') {
   return unit && unit !== 'units' ? `${unit}${power}` : `${power === '²' ? 'square' : 'cubic'} units`;
 }
 
+/** Words with a capital first letter. @param {string} words */
+export const capitalised = (words) => words[0].toUpperCase() + words.slice(1);
+
 /** The size of a file. @param {number} bytes */
 export function fileSize(bytes) {
   if (bytes < 1e3) return `${count(bytes)}${NO_BREAK_SPACE}bytes`;

@@ -6,6 +6,7 @@
  * bottom. Two edges share each corner. The corners between two pages are the ends of the gutter. Other nodes are set by hand;
  * an edge without them is the detected one, or the library traces it in the photo from corner to corner.
  */
+import { capitalised } from '../format.js';
 import { splineThrough } from './spline.js';
 
 /** @typedef {[x: number, y: number]} Point */
@@ -198,8 +199,8 @@ export class Outline {
   name({ edge, node }) {
     const nodes = this.edges[edge];
     if (!nodes[node].corner) return `Point ${node} of the ${EDGE_NAMES[edge]} edge`;
-    if (node > 0 && node < nodes.length - 1) return `${capitalise(EDGE_NAMES[edge])} end of the gutter`;
-    return `${capitalise(EDGE_NAMES[edge])} ${node === 0 ? 'left' : 'right'} corner`;
+    if (node > 0 && node < nodes.length - 1) return `${capitalised(EDGE_NAMES[edge])} end of the gutter`;
+    return `${capitalised(EDGE_NAMES[edge])} ${node === 0 ? 'left' : 'right'} corner`;
   }
 }
 
@@ -212,9 +213,4 @@ function nodeAt([x, y], corner) {
 function chordOf(nodes) {
   const [from, to] = [nodes[0], nodes[nodes.length - 1]];
   return [to.x - from.x, to.y - from.y];
-}
-
-/** The word with a capital first letter. @param {string} word */
-function capitalise(word) {
-  return word[0].toUpperCase() + word.slice(1);
 }

@@ -1,6 +1,6 @@
 /** Whole meshes on the stage: the mesh and its fit in space, the views of it, and what it is saved as. */
 import { download, element, elements } from '../dom.js';
-import { percent, shortLambda } from '../format.js';
+import { capitalised, percent, shortLambda } from '../format.js';
 import { lengthUnitOf } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
 import { MESH_FIT_WORDS } from '../messages.js';
@@ -161,8 +161,7 @@ export function meshFitPanel(session, meshFit, stage, heights) {
   });
   meshFit.on('failure', (error) => {
     stage.setSolving(false);
-    const words = plainMessage(error);
-    const reason = `${words[0].toUpperCase()}${words.slice(1)}.`;
+    const reason = `${capitalised(plainMessage(error))}.`;
     stage.say(whole, MESH_FIT_WORDS.unsolved, reason);
     if (!isFirstSolve) return;
     showOneSide();

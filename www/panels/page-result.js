@@ -1,7 +1,7 @@
 /** The flat page: its verdict, figures and files. */
 import { stemOf } from '../file-kinds.js';
 import { element, make } from '../dom.js';
-import { number, percent } from '../format.js';
+import { capitalised, number, percent } from '../format.js';
 import { flattenWholePhoto } from '../page/flatten.js';
 import { PAPERS, pictureFiles, similarPaper } from '../page/paper.js';
 import { turnPicture } from '../page/quarter-turn.js';
@@ -248,6 +248,5 @@ function linesInWords({ linesFound, linesDisagreement }) {
 function errorSentence(error) {
   const message = error instanceof Error ? error.message : String(error);
   const [, edge] = /the (\w+) edge has a point at .* outside of the photo/.exec(message) ?? [];
-  const words = edge ? PAGE_WORDS.tooFarOutside(edge) : message;
-  return `${words[0].toUpperCase()}${words.slice(1).replace(/\.$/, '')}.`;
+  return `${capitalised(edge ? PAGE_WORDS.tooFarOutside(edge) : message).replace(/\.$/, '')}.`;
 }

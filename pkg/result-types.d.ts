@@ -773,7 +773,7 @@ export interface MeshAnalysis {
 
 /**
  * What a mesh is, of what a fit gains.
- * - `'faces'`: Its faces are exact, as in CAD and low-poly models, and are moved into the plane as they are.
+ * - `'faces'`: Its faces are exact, as in CAD and low-poly models, or few, and are moved into the plane as they are.
  * - `'noisyFaces'`: Its vertices have noise about flat faces, as in scans of roofs and boxes; the faces are laid flat
  *   without it.
  * - `'surface'`: Its vertices have no noise, so that a fit gains nothing, but its bends are triangulated irregularly.

@@ -46,7 +46,7 @@ async function isExact({ input, asIs, blank, recognized }, mesh) {
   if (kind === 'noisyFaces') {
     if (asIs) return false;
     say(`${input} looks like ${faces === 1 ? '1 flat face' : `${faces} flat faces`} with noise of ${Number(noise.toPrecision(2))} in the file's unit: the noise is removed (--as-is keeps it)`);
-  } else if (!asIs) say(`${input} is taken as it is: its ${kind === 'faces' ? 'faces are exact' : 'vertices have no noise'}`);
+  } else if (!asIs) say(`${input} is taken as it is: ${kind === 'faces' ? 'each of its faces is kept' : 'its vertices have no noise'}`);
   return true;
 }
 

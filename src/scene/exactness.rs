@@ -4,23 +4,25 @@ use super::half_edges::half_edge_ends;
 use super::mesh::Mesh;
 use super::polyhedron::Polyhedron;
 use crate::math::index::NO_INDEX;
+use crate::math::statistics::median;
 
 /// Minimum share of the facets that are strips of bends, and maximum share of those that are neither strips nor faces. Of
 /// triangles with noise, however steep, less than half have two neighbours at small angles.
 const MIN_STRIP_SHARE: f64 = 0.5;
 
-/// Minimum correlation of the bends at both ends of an edge. What noise lifts makes valleys around it: a scan with noise has
-/// 0.14 or less, one of whole heights 0.02; parts of CAD have 0.65 or more, models of 350 and 1500 triangles 0.5 and 0.35.
-const MIN_BEND_CORRELATION: f64 = 0.25;
-
-/// Minimum share of all inner edges that are flat to rounding: faces of CAD have one for each triangle beside the first.
-const MIN_FLAT_SHARE: f64 = 0.25;
-
-/// Minimum angle, in degrees, between all neighbouring facets but a tenth: a smooth surface has smaller ones everywhere.
-const MIN_FACET_ANGLE: f64 = 0.3;
+/// Minimum share of the edges whose ends bend the same way, less that of the others: what noise lifts makes valleys around it
+/// (`benches/exactness.md`).
+const MIN_ALIKE_SHARE: f64 = 0.25;
 
 /// Minimum median angle, in degrees, between the faces of a low-poly model; a ball of 500 triangles has 9.
 const MIN_LOW_POLY_ANGLE: f64 = 8.0;
+
+/// Maximum number of faces of a model that is built face by face, however little these fold: a ball of as many has
+/// [`MIN_LOW_POLY_ANGLE`], other surfaces less.
+const MAX_FEW_FACES: usize = 500;
+
+/// Minimum share of all inner edges that are flat to rounding in a model of few faces, whatever its bends: noise leaves none.
+const MIN_FLAT_SHARE: f64 = 0.25;
 
 /// Minimum share of the area of a mesh without noise that lies in planes of several triangles.
 const MIN_PLANAR_SHARE: f64 = 0.5;
@@ -60,30 +62,30 @@ impl Mesh {
 }
 
 fn are_faces_exact(solid: &Polyhedron) -> bool {
-    let hinges: Vec<u32> = solid.inner_sides().collect();
-    let mut angles: Vec<f64> = hinges
-        .iter()
-        .map(|side| solid.angle(*side).abs().to_degrees())
+    let mut angles: Vec<f64> = (solid.inner_sides())
+        .map(|side| solid.angle(side).abs().to_degrees())
         .collect();
-    angles.sort_by(f64::total_cmp);
-    let (Some(tenth), Some(median)) = (angles.get(angles.len() / 10), angles.get(angles.len() / 2))
-    else {
+    let Some(median) = median(&mut angles) else {
         return true;
     };
-    let inner = solid.twins.iter().filter(|twin| **twin != NO_INDEX).count() / 2;
-    let flat = 1.0 - hinges.len() as f64 / inner as f64;
     let steps = solid.bend_steps();
     let share = |is_wanted: &dyn Fn(usize) -> bool| {
         (0..steps.len()).filter(|facet| is_wanted(*facet)).count() as f64 / steps.len() as f64
     };
     let strips = share(&|facet| steps[facet].len() == 2);
     let irregular = share(&|facet| steps[facet].len() > 2);
-    let has_faces = (flat >= MIN_FLAT_SHARE && irregular < 1.0 - MIN_STRIP_SHARE)
-        || *median >= MIN_LOW_POLY_ANGLE;
-    strips >= MIN_STRIP_SHARE
-        || (*tenth >= MIN_FACET_ANGLE
-            && has_faces
-            && bend_correlation(solid, &hinges) >= MIN_BEND_CORRELATION)
+    let has_faces = irregular < 1.0 - MIN_STRIP_SHARE || median >= MIN_LOW_POLY_ANGLE;
+    strips >= MIN_STRIP_SHARE || (has_faces && has_no_noise(solid))
+}
+
+/// Whether a mesh has so few faces that each is one that was meant, and no sign of noise.
+pub(crate) fn are_faces_few(mesh: &Mesh) -> bool {
+    Polyhedron::new(mesh).is_ok_and(|solid| {
+        let inner = solid.twins.iter().filter(|twin| **twin != NO_INDEX).count() / 2;
+        let flat = inner - solid.inner_sides().count();
+        solid.normals.len() <= MAX_FEW_FACES
+            && (has_no_noise(&solid) || flat as f64 >= MIN_FLAT_SHARE * inner as f64)
+    })
 }
 
 fn are_vertices_exact(solid: &Polyhedron) -> bool {
@@ -94,26 +96,26 @@ fn are_vertices_exact(solid: &Polyhedron) -> bool {
         .zip(&solid.areas)
         .filter(|(count, _)| **count > 1);
     let planar: f64 = planar.map(|(_, area)| area).sum();
-    let hinges: Vec<u32> = solid.inner_sides().collect();
-    planar >= MIN_PLANAR_SHARE * solid.areas.iter().sum::<f64>()
-        && (hinges.is_empty() || bend_correlation(solid, &hinges) >= MIN_BEND_CORRELATION)
+    planar >= MIN_PLANAR_SHARE * solid.areas.iter().sum::<f64>() && has_no_noise(solid)
 }
 
-/// Correlation, about 0, of the bends at both ends of an edge: angles times lengths of the edges at a vertex.
-fn bend_correlation(solid: &Polyhedron, hinges: &[u32]) -> f64 {
+/// Whether vertices bend the way that their neighbours do, more than noise would let them and the number of edges leave to chance.
+/// The bend of a vertex is the sum of angles times lengths of the edges there.
+fn has_no_noise(solid: &Polyhedron) -> bool {
+    let hinges: Vec<u32> = solid.inner_sides().collect();
     let mut bends = vec![0.0; solid.places.len()];
-    for side in hinges {
+    for side in &hinges {
         let [a, b] = solid.ends(*side);
         let bend = solid.angle(*side) * (b - a).norm();
         half_edge_ends(&solid.triangles, *side)
             .iter()
             .for_each(|v| bends[*v as usize] += bend);
     }
-    let (mut products, mut squares) = (0.0, 0.0);
-    for side in hinges {
-        let [a, b] = half_edge_ends(&solid.triangles, *side).map(|v| bends[v as usize]);
-        products += a * b;
-        squares += 0.5 * (a * a + b * b);
-    }
-    products / squares
+    let is_alike = |side: &&u32| {
+        let [a, b] = half_edge_ends(&solid.triangles, **side).map(|v| bends[v as usize]);
+        a * b > 0.0
+    };
+    let count = hinges.len() as f64;
+    let alike = hinges.iter().filter(is_alike).count() as f64;
+    2.0 * alike - count >= MIN_ALIKE_SHARE * count - count.sqrt()
 }

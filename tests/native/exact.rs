@@ -3,9 +3,10 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::closed_meshes::cube;
+use crate::native::common::Random;
 use developable::drawing::{Bending, Drawing, DrawingOptions, Label, LabelKind};
 use developable::files::drawings::{PdfOptions, TextureFile, write_dxf, write_pdf, write_svg};
-use developable::pattern::{MeshPattern, NetOptions, Sheet, pattern_exact, sheet_metal};
+use developable::pattern::{MeshKind, MeshPattern, NetOptions, Sheet, pattern_exact, sheet_metal};
 use developable::{Exactness, Lambda, Mesh, MeshOptions, StopReason, fit_mesh};
 
 fn seam_length(pattern: &MeshPattern) -> f64 {
@@ -666,4 +667,38 @@ fn no_text_lies_on_a_line_or_on_another_text() {
             );
         }
     }
+}
+
+#[test]
+fn models_of_few_faces_are_built_face_by_face_however_little_these_fold() {
+    let kind = |points: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>| {
+        MeshKind::of(&Mesh::new(points, triangles).unwrap()).unwrap()
+    };
+    // Squares of a saddle, no four of whose corners lie in a plane, and the same with a tenth of their size of noise.
+    let n = 10u32;
+    let saddle = |noise: f64| {
+        let mut random = Random::new(5);
+        let point = |i: u32| {
+            let (x, y) = (f64::from(i % n), f64::from(i / n));
+            [
+                x,
+                y,
+                0.02 * (x - 4.5).powi(2) * (y - 4.5) + noise * random.normal(),
+            ]
+        };
+        let squares = (0..n - 1).flat_map(|j| (0..n - 1).map(move |i| j * n + i));
+        let triangles = squares.flat_map(|a| [[a, a + 1, a + 11], [a, a + 11, a + 10]]);
+        kind((0..n * n).map(point).collect(), triangles.collect())
+    };
+    assert!(matches!(saddle(0.0), MeshKind::Faces));
+    assert!(matches!(saddle(0.1), MeshKind::Noisy));
+    // An open pyramid of many sides, whose tip bends by more than all other vertices together.
+    let sides = 14u32;
+    let mut points = vec![[0.0, 0.0, 60.0]];
+    points.extend((0..sides).map(|k| {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(sides)).sin_cos();
+        [20.0 * cos, 20.0 * sin, 0.0]
+    }));
+    let triangles = (0..sides).map(|k| [0, 1 + k, 1 + (k + 1) % sides]);
+    assert!(matches!(kind(points, triangles.collect()), MeshKind::Faces));
 }

@@ -4,12 +4,12 @@ use super::FoundFaces;
 use super::noisy::noisy_faces;
 use super::rolled::rolled_faces;
 use crate::error::Result;
-use crate::scene::exactness::Exactness;
+use crate::scene::exactness::{Exactness, are_faces_few};
 use crate::scene::mesh::Mesh;
 
 /// What a mesh is, and the faces that were found in it. Each kind is laid flat in its own way.
 pub enum MeshKind {
-    /// The faces of the mesh are exact: [`pattern_exact`](super::pattern_exact) lays them flat.
+    /// The faces of the mesh are exact, or few: [`pattern_exact`](super::pattern_exact) lays them flat.
     Faces,
     /// The vertices of the mesh have noise about flat faces.
     NoisyFaces(FoundFaces),
@@ -27,10 +27,17 @@ impl MeshKind {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn of(mesh: &Mesh) -> Result<MeshKind> {
-        Ok(match Exactness::of(mesh) {
-            Exactness::Faces => MeshKind::Faces,
-            Exactness::Vertices => rolled_faces(mesh).map_or(MeshKind::Surface, MeshKind::Bends),
-            Exactness::None => noisy_faces(mesh)?.map_or(MeshKind::Noisy, MeshKind::NoisyFaces),
+        let exactness = Exactness::of(mesh);
+        let found = match exactness {
+            Exactness::Faces => return Ok(MeshKind::Faces),
+            Exactness::Vertices => rolled_faces(mesh).map(MeshKind::Bends),
+            Exactness::None => noisy_faces(mesh)?.map(MeshKind::NoisyFaces),
+        };
+        Ok(match (found, exactness) {
+            (Some(kind), _) => kind,
+            _ if are_faces_few(mesh) => MeshKind::Faces,
+            (None, Exactness::Vertices) => MeshKind::Surface,
+            _ => MeshKind::Noisy,
         })
     }
 }

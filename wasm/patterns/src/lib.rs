@@ -263,7 +263,7 @@ struct RecognizedOutput {
 #[derive(Serialize, Clone, Copy, Default)]
 #[serde(rename = "MeshKind", rename_all = "camelCase")]
 enum RecognizedKind {
-    /// Its faces are exact, as in CAD and low-poly models, and are moved into the plane as they are.
+    /// Its faces are exact, as in CAD and low-poly models, or few, and are moved into the plane as they are.
     Faces,
     /// Its vertices have noise about flat faces, as in scans of roofs and boxes; the faces are laid flat without it.
     NoisyFaces,

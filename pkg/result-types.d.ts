@@ -392,6 +392,8 @@ export interface DrawingSummary {
   tabs: number;
   /** Number of creases that are cut and have a tab on neither side, for want of room; 0 if no tabs are wanted. */
   untabbed: number;
+  /** Number of cuts whose letter is on one side only or on none, for want of room. */
+  unlettered: number;
   /** Total length of all cut lines, in millimetres. */
   cutLength: number;
   /** Total length of all mountain folds, without those of tabs, in millimetres. */

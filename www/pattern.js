@@ -84,7 +84,7 @@ export async function cutSheets(analyses, result, { side, ...options }, tell) {
 }
 
 /** The number of sheets, folds, seams and slits in sentences, and what is missing. @param {Drawing} drawing */
-export function sheetsInWords({ summary: { sheets, seams, folds, slits, strain, missing, untabbed } }) {
+export function sheetsInWords({ summary: { sheets, seams, folds, slits, strain, missing, untabbed, unlettered } }) {
   const cut = seams === 0 ? '' : `, to be joined along ${seams === 1 ? 'one cut' : `${count(seams)} cuts`}`;
   const fold = folds === 0 ? '' : `, with ${folds === 1 ? 'one fold' : `${count(folds)} folds`}`;
   const slit = slits === 0 ? '' : ` ${slits === 1 ? 'One cut' : `${count(slits)} cuts`}, then ${sheets === 1 ? 'it lies' : 'they lie'} flat.`;
@@ -92,7 +92,8 @@ export function sheetsInWords({ summary: { sheets, seams, folds, slits, strain, 
   const lost = (missing?.area ?? 0) + (missing?.stepArea ?? 0);
   const without = lost > 0 ? ` ${number(lost / 100, 2)} cm² of the surface, at ragged borders or steps, are on no sheet.` : '';
   const bare = untabbed > 0 ? ` ${untabbed === 1 ? 'One cut has' : `${count(untabbed)} cuts have`} no room for a tab.` : '';
-  return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}${fold}${cut}.${slit}${stretch}${without}${bare}`;
+  const nameless = unlettered > 0 ? ` ${unlettered === 1 ? 'One cut lacks its letter' : `${count(unlettered)} cuts lack their letter`} on a side.` : '';
+  return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}${fold}${cut}.${slit}${stretch}${without}${bare}${nameless}`;
 }
 
 /** Longer side of the smallest sheet of a drawing, in millimetres. @param {Drawing} drawing */

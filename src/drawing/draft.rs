@@ -12,7 +12,7 @@ use super::offset::offset_outwards;
 use super::options::DrawingOptions;
 use super::pack::Place;
 use super::sheet::{DrawnSheet, PrintedTriangle};
-use super::tabs::{Tab, add_tabs};
+use super::tabs::add_tabs;
 use crate::error::{Error, Result, rounded};
 use crate::pattern::Sheet;
 
@@ -47,6 +47,7 @@ pub(super) struct SeamAnnotations {
 }
 
 impl DrawnSheet {
+    /// Draws a sheet, and returns the creases of its sides without a letter, for want of room.
     pub(super) fn new(
         number: usize,
         sheet: &Sheet,
@@ -57,7 +58,7 @@ impl DrawnSheet {
             marks,
             swapped,
         }: &SeamAnnotations,
-    ) -> Result<Self> {
+    ) -> Result<(Self, Vec<usize>)> {
         let scale = options.scale;
         let (plain, flaps) = add_tabs(&lines.outlines, options.tabs, swapped);
         let out = options.allowance + 0.5 * options.kerf;
@@ -100,24 +101,32 @@ impl DrawnSheet {
                 None => labels.push(label.in_sizes()),
             }
         }
+        let mut sides: BTreeMap<(usize, Option<u32>), Vec<Label>> = BTreeMap::new();
+        let mut letter_side = |crease: usize, patch: Option<u32>, texts: Vec<Label>| {
+            let side = sides.entry((crease, patch)).or_default();
+            side.extend(texts.iter().cloned());
+            labels.push(texts);
+        };
         for (run, curve) in lines.outlines.iter().flatten() {
             if let Some(seam) = &run.seam
                 && let Some(letter) = letters.get(&seam.crease)
             {
-                let points = curve.points(FLATTENING_TOLERANCE_MM);
-                labels.push(Label::seam(letter, seam, &points));
+                let texts = Label::seam(letter, seam, &curve.points(FLATTENING_TOLERANCE_MM));
+                letter_side(seam.crease, run.patch, texts);
+            }
+        }
+        for tab in &flaps {
+            if let Some(letter) = letters.get(&tab.seam.crease) {
+                letter_side(tab.seam.crease, tab.patch, Label::tab(letter, tab));
             }
         }
         labels.extend(lines.folds.iter().map(Label::fold));
-        labels.extend((flaps.iter()).filter_map(|tab: &Tab| {
-            let letter = letters.get(&tab.seam.crease)?;
-            Some(Label::tab(letter, tab))
-        }));
         let tabs: Vec<Line> = (flaps.into_iter())
             .map(|tab| Line::new(tab.seam, tab.base))
             .collect();
         if options.plain {
             labels.clear();
+            sides.clear();
             outer.clear();
             leaders.clear();
         }
@@ -129,6 +138,11 @@ impl DrawnSheet {
         let drawn: Vec<[[f64; 2]; 2]> = walls
             .into_iter()
             .chain(folds.map(|p| [p[0], p[1]]))
+            .collect();
+        let labels = Label::without_collisions(outer, labels, &drawn);
+        let unlettered = (sides.iter())
+            .filter(|(_, texts)| !texts.iter().any(|text| labels.contains(text)))
+            .map(|((crease, _), _)| *crease)
             .collect();
         let sheet = DrawnSheet {
             name,
@@ -151,8 +165,8 @@ impl DrawnSheet {
                 .flat_map(|(run, curve)| seam_marks(run, curve, marks))
                 .collect(),
             leaders,
-            labels: Label::without_collisions(outer, labels, &drawn),
+            labels,
         };
-        Ok(sheet.moved(&Place::IDENTITY))
+        Ok((sheet.moved(&Place::IDENTITY), unlettered))
     }
 }

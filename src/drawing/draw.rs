@@ -96,9 +96,10 @@ impl Drawing {
                 swapped_tabs(&outlines, tabs)
             },
         };
-        let drawn: Vec<DrawnSheet> = (sheets.iter().zip(&lines).enumerate())
-            .map(|(number, (sheet, own))| DrawnSheet::new(number, sheet, own, &options, &named))
-            .collect::<Result<_>>()?;
+        let (drawn, unlettered): (Vec<DrawnSheet>, Vec<Vec<usize>>) =
+            (sheets.iter().zip(&lines).enumerate())
+                .map(|(number, (sheet, own))| DrawnSheet::new(number, sheet, own, &options, &named))
+                .collect::<Result<_>>()?;
         let boxes: Vec<Place> = (drawn.iter())
             .map(|sheet| Place::around(&Shape::new(sheet).lines))
             .collect();
@@ -117,6 +118,11 @@ impl Drawing {
         if tabs.is_some() {
             summary.untabbed = untabbed(sheets, &drawn);
         }
+        summary.unlettered = unlettered
+            .concat()
+            .into_iter()
+            .collect::<BTreeSet<_>>()
+            .len();
         summary.a4 = page_count(&drawn, Stock::A4);
         summary.letter = page_count(&drawn, Stock::Letter);
         Ok(Drawing {

@@ -11,6 +11,8 @@ use crate::pattern::{Run, Seam};
 /// A tab (a glued flap at an edge), and the line that the tab is folded along.
 pub(super) struct Tab {
     pub seam: Seam,
+    /// Patch that the tab is on.
+    pub patch: Option<u32>,
     /// Fold line between tab and sheet, in the direction of the outline.
     pub base: Curve,
     pub depth: f64,
@@ -151,6 +153,7 @@ pub(super) fn add_tabs(
                 walls.extend(line.windows(2).map(|p| [p[0], p[1]]));
                 tabs.push(Tab {
                     seam,
+                    patch: run.patch,
                     base,
                     depth,
                     middle: [0, 1].map(|k| line.iter().map(|c| c[k]).sum::<f64>() / 4.0),

@@ -52,6 +52,9 @@ pub struct Totals {
     pub tabs: usize,
     /// Number of creases that are cut and have a tab on neither side, for want of room; 0 if no tabs are wanted.
     pub untabbed: usize,
+    /// Number of cuts whose letter is on one side only or on none, for want of room.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub unlettered: usize,
     /// Total length of all cut lines, in millimetres.
     pub cut_length: f64,
     /// Total length of all mountain folds, without those of tabs, in millimetres.
@@ -178,6 +181,7 @@ pub(super) fn summary(
         folds: drawn.iter().map(|sheet| sheet.folds.len()).sum(),
         tabs: drawn.iter().map(|sheet| sheet.tabs.len()).sum(),
         untabbed: 0,
+        unlettered: 0,
         cut_length: drawn.iter().flat_map(|sheet| &sheet.cuts).map(around).sum(),
         mountain_length: folds(Direction::Mountain),
         valley_length: folds(Direction::Valley),

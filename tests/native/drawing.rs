@@ -1,12 +1,15 @@
 //! Patterns drawn in millimetres, and written to files. (What other programs measure in these is in
 //! `tests/js/patterns.test.mjs`.)
 
+use std::collections::BTreeMap;
+
+use crate::closed_meshes::cube;
 use crate::native::common::{noisy, unit_square};
 use developable::drawing::{Bending, Drawing, DrawingOptions, DrawnSheet, LabelKind, Piece, Stock};
 use developable::files::assembly::write_assembly_svg;
 use developable::files::drawings::{PdfOptions, write_dxf, write_pdf, write_svg};
 use developable::patches::{PatchOptions, Patches};
-use developable::pattern::{PatternOptions, Sheet, pattern};
+use developable::pattern::{NetOptions, PatternOptions, Sheet, pattern, pattern_exact};
 use developable::{Heightfield, Options, fit};
 
 fn sheets(surface: &Heightfield) -> Vec<Sheet> {
@@ -297,6 +300,25 @@ fn both_sides_of_each_cut_have_the_same_letter() {
         "{letters:?}"
     );
     assert_eq!(letters[0], "a");
+}
+
+#[test]
+fn cuts_without_room_for_their_letters_are_counted() {
+    let net = pattern_exact(&cube(1), &NetOptions::default()).unwrap();
+    let mut without = 0;
+    for scale in [100.0, 5.0, 2.0, 1.0] {
+        let drawing = drawn(&net.sheets, DrawingOptions::default().scale(scale));
+        let labels = drawing.sheets.iter().flat_map(|sheet| &sheet.labels);
+        let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+        for label in labels.filter(|label| label.kind == LabelKind::Seam) {
+            *counts.entry(&label.text).or_default() += 1;
+        }
+        let both = counts.values().filter(|count| **count == 2).count();
+        without = drawing.summary.seams - both;
+        assert_eq!(drawing.summary.unlettered, without, "scale {scale}");
+        assert!(without == 0 || scale < 100.0);
+    }
+    assert!(without > 0);
 }
 
 #[test]

@@ -9,8 +9,8 @@ const named = [
   ...Object.values(exports).flatMap((target) => (typeof target === 'string' ? target : Object.values(target))),
   ...Object.values(bin),
   ...Object.keys(alias),
-  // What modules of the package import, and no entry names.
-  'threads/threads.js', 'threads/threads_bg.wasm', 'vendor/comlink.mjs', 'vendor/commander.mjs', 'vendor/tinyglobby.mjs',
+  // What modules and types of the package import, and no entry names.
+  'direct-calls.d.ts', 'option-types.d.ts', 'threads/threads.js', 'threads/threads_bg.wasm', 'vendor/comlink.mjs', 'vendor/commander.mjs', 'vendor/tinyglobby.mjs',
 ];
 const missing = named.filter((path) => !existsSync(join(folder, path)));
 if (missing.length > 0) {

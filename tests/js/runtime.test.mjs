@@ -85,6 +85,17 @@ test('a package that is not built cannot be packed', async () => {
   const prepack = [process.execPath, join(root, 'tools/prepack.mjs')];
   const empty = await runProcess(folder, [], { program: prepack });
   assert.equal(empty.status, 1);
-  assert.match(empty.stderr, /not complete: .*wasm\/solver_bg\.wasm.*threads\/threads\.js.*npm run build/);
+  assert.match(empty.stderr, /not complete: .*wasm\/solver_bg\.wasm.*direct-calls\.d\.ts, option-types\.d\.ts.*threads\/threads\.js.*npm run build/);
   assert.deepEqual(await runProcess(pkg, [], { program: prepack }), { status: 0, stdout: '', stderr: '' });
+});
+
+test('what a step beside others has said is shown if the tests end before its turn', async () => {
+  const script = `
+    import { run, shownLater } from ${JSON.stringify(new URL('../../tools/util/process.mjs', import.meta.url).href)};
+    const say = (isShown, words) => shownLater.run({ text: '', isShown }, () => run(process.execPath, ['-e', 'console.log("' + words + '")'], { show: true }));
+    await say(false, 'half way');
+    await say(true, 'at once');
+    process.exit(130);`;
+  const ended = await runProcess(root, [], { program: [process.execPath, '--input-type=module', '-e', script] });
+  assert.deepEqual(ended, { status: 130, stdout: 'at once\nhalf way\n', stderr: '' });
 });

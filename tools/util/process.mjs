@@ -21,6 +21,8 @@ import { spawn } from 'node:child_process';
 
 /** What is shown of programs that run beside others: kept until it is their turn. @type {AsyncLocalStorage<{ text: string, isShown: boolean }>} */
 export const shownLater = new AsyncLocalStorage();
+/** Those of which something is kept. @type {Set<{ text: string, isShown: boolean }>} */
+const unshown = new Set();
 
 /** Ends everything a child has started: with a process group of its own that is one signal. */
 const groups = process.platform !== 'win32';
@@ -40,7 +42,11 @@ function end(child, signal) {
   }
 }
 
-process.on('exit', () => running.forEach((child) => end(child, 'SIGTERM')));
+process.on('exit', () => {
+  running.forEach((child) => end(child, 'SIGTERM'));
+  // It has not been their turn.
+  for (const { text, isShown } of unshown) if (!isShown) process.stdout.write(text);
+});
 /** @type {[NodeJS.Signals, number][]} */
 const signals = [['SIGINT', 130], ['SIGTERM', 143], ['SIGHUP', 129]];
 for (const [signal, status] of signals) {
@@ -77,8 +83,10 @@ export function run(command, args, { env = process.env, cwd, limit, show = false
       from.setEncoding('utf8');
       from.on('data', (text) => {
         output += text;
-        if (show && kept?.isShown === false) kept.text += text;
-        else if (show) to.write(text);
+        if (show && kept?.isShown === false) {
+          kept.text += text;
+          unshown.add(kept);
+        } else if (show) to.write(text);
       });
     }
 

@@ -33,7 +33,10 @@ export function parseCamera(given, images = []) {
   // Of several cameras the first one that is about as good as the best: left of a pair, the first of many frames.
   const least = Math.min(...fits.map(({ off }) => off));
   const near = fits.filter(({ off }) => off <= least + SURELY_NEARER);
-  const best = near.find(({ lens }) => lens === undefined) ?? near[0];
+  const [{ lens: foreign, camera: first }] = near;
+  // One after a lens that is not known here is not meant instead unless its images have another size.
+  const other = near.find(({ lens, camera }) => lens === undefined && (camera.width !== first.width || camera.height !== first.height));
+  const best = (foreign !== undefined && other) || near[0];
   if (best.lens !== undefined) {
     throw problem(`its lens (${best.lens}) bends the picture in a way that is not known here: undistort the images by the program that made it`);
   }
@@ -92,13 +95,17 @@ function camerasOf(part, images, around = {}) {
     return own ? [own] : part.flatMap((inner) => (Array.isArray(inner) ? [] : camerasOf(inner, images, around)));
   }
   const named = plainFields(part);
-  // What some programs say of lens and image in groups beside the camera.
-  const beside = Object.entries(named).filter(([name, value]) => /^(dist|image|resolution|size)/.test(name) && isRecord(value));
-  const fields = Object.assign({}, around, ...beside.map(([, group]) => plainFields(Object(group))), named);
+  const fields = Object.assign({}, around, ...groupsBeside(named), named);
   const own = cameraOf(fields, images);
   if (own) return [own];
-  const inherited = Object.fromEntries(Object.entries(fields).filter(([name, value]) => typeof value !== 'object' || LENS.includes(name)));
+  const inherited = Object.fromEntries(Object.entries(fields).filter(([name, value]) => typeof value !== 'object' || [...LENS, 'resolution'].includes(name)));
   return Object.values(part).flatMap((inner) => camerasOf(inner, images, inherited));
+}
+
+/** What some programs say of lens and image in groups beside the camera. @param {Fields} named @returns {Fields[]} */
+function groupsBeside(named) {
+  const beside = Object.entries(named).filter(([name, value]) => /^(dist|coeff|image|resolution|size)/.test(name) && isRecord(value));
+  return beside.map(([, group]) => plainFields(Object(group))).flatMap((group) => [...groupsBeside(group), group]);
 }
 
 /**
@@ -124,7 +131,10 @@ const LENS = [
 ];
 
 /** Names of lenses that `k1` to `k3`, `p1` and `p2` do not describe. */
-const OTHER_LENSES = /fish.?eye|equi|kannala|fov|prism|spherical|cylindrical|omni|^(mei|eucm|ds)$/i;
+const OTHER_LENSES = /fish.?eye|equi|kannala|fov|prism|spherical|cylindrical|omni|^(kb\d*|mei|eucm|ds|dual)$/i;
+
+/** Such names where they may be those of a device, too. */
+const OTHER_MODELS = /^([a-z_ -]*fish.?eye\d*|equi(distant|rectangular)|kannala.*|fov|spherical|cylindrical|omni(directional)?|kb\d*|mei|eucm|ds)$/i;
 
 /**
  * @param {Fields} file fields with plain names
@@ -146,9 +156,12 @@ function cameraOf(file, images) {
   if (!angles.some((angle) => angle !== undefined) && size) angles[size.width < size.height ? 1 : 0] = number('fov', 'fieldofview');
   const byWidth = size && focal(size.width, angles[0]);
   const byHeight = size && focal(size.height, angles[1]);
-  const both = number('f', 'focal', 'focallengthpx');
-  let fx = own?.fx ?? number('fx', 'flx') ?? both ?? byWidth ?? byHeight;
-  let fy = own?.fy ?? number('fy', 'fly', 'fx', 'flx') ?? both ?? byHeight ?? byWidth;
+  const both = number('f', 'focallengthpx');
+  // OpenSfM writes shares of the longer side, and the axis from the middle.
+  const longer = file.projectiontype !== undefined && size ? Math.max(size.width, size.height) : NaN;
+  const [shareX, shareY] = [number('focalx', 'focal'), number('focaly', 'focal')].map((share) => numberOf((share ?? NaN) * longer));
+  let fx = own?.fx ?? number('fx', 'flx') ?? both ?? shareX ?? byWidth ?? byHeight;
+  let fy = own?.fy ?? number('fy', 'fly', 'fx', 'flx') ?? both ?? shareY ?? byHeight ?? byWidth;
   let cx = own?.cx ?? number('cx', 'ppx');
   let cy = own?.cy ?? number('cy', 'ppy');
   if (fx === undefined || fy === undefined) {
@@ -159,9 +172,9 @@ function cameraOf(file, images) {
   const projection = file.projection ?? file.type;
   // PhotoScan, which Metashape was, wrote fx and fy, and the axis from the corner.
   const metashape = projection === 'frame' && both !== undefined;
-  if (size && (metashape || cx === undefined || cy === undefined)) {
-    [cx, cy] = [size.width / 2 + (cx ?? 0), size.height / 2 + (cy ?? 0)];
-  }
+  if (size && shareX !== undefined) [cx, cy] = [(size.width - 1) / 2 + (cx ?? 0) * longer, (size.height - 1) / 2 + (cy ?? 0) * longer];
+  else if (size && metashape) [cx, cy] = [size.width / 2 + (cx ?? 0), size.height / 2 + (cy ?? 0)];
+  else if (size) [cx, cy] = [cx ?? size.width / 2, cy ?? size.height / 2];
   if (projection === 'frame') [p1, p2] = [p2, p1];
   if (metashape) fx += number('b1') ?? 0;
   if (cx === undefined || cy === undefined) return undefined;
@@ -172,11 +185,12 @@ function cameraOf(file, images) {
     fx, fy, cx, cy, k1, k2, p1, p2, k3, rotation, translation, ...stated, depthScale: number('depthscale'),
   };
   const isFisheye = [file.isfisheye, file.fisheyemodel].some((flag) => flag === true || flag === 1);
-  const models = [file.distortionmodel, file.cameramodel, file.cameratype, file.modeltype, file.model, isFisheye ? 'fisheye' : '', projection];
-  const others = more.some((k) => k !== 0 && k !== undefined) ? [...models.slice(0, 5), 'with more than five coefficients'] : [];
+  const models = [file.distortionmodel, file.cameramodel, file.cameratype, file.modeltype, file.projectiontype, isFisheye ? 'fisheye' : ''];
+  const named = [...[...models, projection].filter((model) => OTHER_LENSES.test(String(model))), ...[file.model].filter((model) => OTHER_MODELS.test(String(model)))];
+  const others = more.some((k) => k !== 0 && k !== undefined) ? [...models, file.model, 'with more than five coefficients'] : [];
   return {
     camera: /** @type {PhotoCamera} */ (/** @type {unknown} */ (Object.fromEntries(Object.entries(camera).filter(([, value]) => value !== undefined)))),
-    lens: [...models.filter((model) => OTHER_LENSES.test(String(model))), ...others].map((model) => String(model ?? '')).find((model) => model !== ''),
+    lens: [...named, ...others].map((model) => String(model ?? '')).find((model) => model !== ''),
   };
 }
 

@@ -25,7 +25,7 @@ const COLMAP = /** @type {Record<string, string>} */ ({
  */
 export function cameraTree(given) {
   if (typeof given === 'string') return treeOf(given);
-  const bytes = asBytes(given);
+  const bytes = asBytes(given, "the camera's file must be a text, a Uint8Array or an ArrayBuffer, but is");
   const wide = bytes[0] === 0xff && bytes[1] === 0xfe;
   return colmapCameras(bytes) ?? treeOf(new TextDecoder(wide ? 'utf-16le' : 'utf-8').decode(bytes));
 }
@@ -131,9 +131,17 @@ function xml(text) {
  * @param {string} line
  */
 function pairs(line) {
-  const [first, ...others] = line.split(/\s*[{,]\s*(?=["']?[A-Za-z]\w*["']?\s*[:=])|\s+(?=[A-Za-z]\w*\s*=\s*[-\d.[])/);
-  const indent = /^\s*/.exec(line)?.[0] + (line.includes('{') ? ' ' : '');
-  return [first, ...others.map((other) => indent + other.replace(/\s*}\s*$/, ''))];
+  const parts = line.replace(/^(\s*-\s+)\{\s*/, '$1').split(/(?:\s*([{,])\s*(?=["']?[A-Za-z]\w*["']?\s*[:=])|\s+(?=[A-Za-z]\w*\s*=\s*[-\d.[]))/);
+  let indent = /^(\s*-)?\s*/.exec(line)?.[0].replace('-', ' ') ?? '';
+  const lines = [];
+  // What the line is split at stands between its parts.
+  for (let i = 0; i < parts.length; i += 2) {
+    if (parts[i - 1] === '{') indent += ' ';
+    const part = parts[i].replace(/[\s}]+$/, '');
+    lines.push(i === 0 ? part : indent + part);
+    indent = indent.slice(parts[i].split('}').length - 1);
+  }
+  return lines;
 }
 
 /**
@@ -146,6 +154,11 @@ function named(lines) {
   /** @type {Fields} */
   const root = {};
   let open = [{ indent: -2, fields: root }];
+  /** @param {string} name @param {number} indent @param {Fields} [fields] */
+  const begin = (name, indent, fields = {}) => {
+    open[open.length - 1].fields[name] = fields;
+    open.push({ indent, fields });
+  };
   /** @type {unknown[]} */
   let list = [];
   // Lists over several lines.
@@ -153,31 +166,26 @@ function named(lines) {
   for (const line of joined.split('\n').flatMap(pairs)) {
     const [, section] = /^\s*\[([^\],]+)\]\s*$/.exec(line) ?? [];
     if (section !== undefined) {
-      /** @type {Fields} */
-      const fields = {};
-      root[section] = fields;
-      open = [open[0], { indent: -1, fields }];
+      open = [open[0]];
+      begin(section, -1);
       continue;
     }
     // Lists within lists are rows of a matrix.
     const [, item] = /^\s*(?:-\s+)+([^:]*)$/.exec(line) ?? [];
     if (item !== undefined) list.push(valueOf(item));
     // In ROS' INI files what a name stands for follows on lines of its own.
-    else if (/^[\s\d.,;eE+-]+$/.test(line)) list.push(valueOf(line));
+    else if (/^(?=.*\d)[\s\d.,;eE+-]+$/.test(line)) list.push(valueOf(line));
     const [, title] = /^\s*([A-Za-z][\w ]*)$/.exec(line) ?? [];
     if (title !== undefined) open[open.length - 1].fields[title.trim()] = { data: list = [] };
     const [, before, name, rest] = /^(\s*(?:-\s+)?)["']?([A-Za-z][\w. -]*?)["']?\s*(?:=|:(?=\s|$))\s*(.*)$/.exec(line) ?? [];
     if (name === undefined) continue;
-    while (open[open.length - 1].indent >= before.length) open.pop();
-    const parent = open[open.length - 1].fields;
+    const dash = before.indexOf('-');
+    while (open[open.length - 1].indent >= (dash < 0 ? before.length : dash)) open.pop();
+    // A map of a list, which has a number for a name.
+    if (dash >= 0) begin(`- ${Object.keys(open[open.length - 1].fields).length}`, dash);
     list = [];
-    if (rest === '' || rest.startsWith('!')) {
-      const fields = { data: list };
-      parent[name] = fields;
-      open.push({ indent: before.length, fields });
-    } else {
-      parent[name] = valueOf(rest);
-    }
+    if (rest === '' || rest.startsWith('!')) begin(name, before.length, { data: list });
+    else open[open.length - 1].fields[name] = valueOf(rest);
   }
   return root;
 }

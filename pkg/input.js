@@ -362,9 +362,10 @@ export function copied(array) {
 /**
  * Bytes of a file, as a view of its own.
  * @param {unknown} bytes
+ * @param {string} [must] what is said of anything else, which follows
  * @returns {Uint8Array}
  */
-export function asBytes(bytes) {
+export function asBytes(bytes, must = "the file's bytes must be a Uint8Array or ArrayBuffer, but are") {
   const what = "the file's bytes";
   return reading('INPUT', what, () => {
     if (bytes instanceof ArrayBuffer || bytes instanceof DataView) return bytesOf(what, bytes);
@@ -372,7 +373,7 @@ export function asBytes(bytes) {
       const { buffer, byteOffset, byteLength } = viewOf(what, bytes);
       return new Uint8Array(buffer, byteOffset, byteLength);
     }
-    throw new DevelopableError('INPUT', `${what} must be a Uint8Array or ArrayBuffer, but are ${show(bytes)}`);
+    throw new DevelopableError('INPUT', `${must} ${show(bytes)}`);
   });
 }
 

@@ -6,6 +6,8 @@ const MATERIAL_ENDING = /\.mtl$/i;
 const HEIGHTS_ENDING = /\.(tiff?|exr|pfm|npy|npz)$/i;
 const PICTURE_ENDING = /\.(png|jpe?g|webp|avif|heic|gif|bmp)$/i;
 const CAMERA_ENDING = /\.(json|csv|txt|ya?ml|xml|conf|ini)$/i;
+/** Cameras of COLMAP; other `.bin` files of it are depths. */
+const COLMAP_CAMERAS = /^cameras\b[^.]*\.bin$/i;
 /** Names of the formats of meshes, which contents tell. */
 const MESH_FORMATS = ['obj', 'ply', 'stl', 'gltf', '3mf', 'off', 'xyz'];
 
@@ -16,6 +18,7 @@ const UNREADABLE_KINDS = [
   [/\.(pptx?|odp|key)$/i, 'a presentation'],
   [/\.pdf$/i, 'a PDF; take a photo of its page, or save the page as a PNG'],
   [/\.(json|ya?ml|csv|xml|conf|ini)$/i, 'a text without heights; if it is a camera, open it together with its depths'],
+  [COLMAP_CAMERAS, 'cameras without depths; open it together with them'],
   [/\.(txt|md|html?|log)$/i, 'a text'],
   [/\.(zip|rar|7z|gz|tar)$/i, 'an archive; unpack it first'],
   [/\.(mp4|mov|avi|mkv|webm)$/i, 'a video'],
@@ -46,7 +49,7 @@ export function kindByName({ name }) {
   if (isMesh(name) || MATERIAL_ENDING.test(name)) return 'mesh';
   if (HEIGHTS_ENDING.test(name)) return 'heights';
   if (PICTURE_ENDING.test(name)) return 'picture';
-  if (CAMERA_ENDING.test(name)) return 'camera';
+  if (CAMERA_ENDING.test(name) || COLMAP_CAMERAS.test(name)) return 'camera';
   return UNREADABLE_KINDS.some(([ending]) => ending.test(name)) ? 'other' : null;
 }
 

@@ -283,6 +283,25 @@ test('cameras as ROS, OpenCV, COLMAP, nerfstudio, Metashape, ZED and others writ
     ['four numbers and the lens', '525 520 319.5 239.5 0.1 -0.2 0.001 0.002\n', { ...plain, ...lens, k3: undefined }],
     ['a number as text', JSON.stringify({ hfov_deg: String(angle(640) * 180 / Math.PI) }), wide],
     ['NumPy, printed', '[[525.   0.  319.5]\n [  0.  520.  239.5]\n [  0.    0.    1. ]]', plain],
+    ['OpenSfM: shares of the longer side, the axis from the middle of the pixels', JSON.stringify({ 'v2 unknown 640 480 perspective 0.85': { projection_type: 'perspective', width: 640, height: 480, focal: 0.85, k1: 0.1, k2: -0.2 } }),
+      { fx: 544, fy: 544, cx: 319.5, cy: 239.5, width: 640, height: 480, k1: 0.1, k2: -0.2 }],
+    ['OpenSfM, upright, with five coefficients', JSON.stringify({ all: { projection_type: 'brown', width: 480, height: 640, focal_x: 0.75, focal_y: 0.8, c_x: 0.01, c_y: -0.02, k1: 0.1, k2: -0.2, p1: 0.001, p2: 0.002, k3: 0 } }),
+      { fx: 480, fy: 512, cx: 245.9, cy: 306.7, width: 480, height: 640, ...lens }],
+    ['a focal length in millimetres beside a field of view', JSON.stringify({ focal: 50, fov: angle(640) * 180 / Math.PI, width: 640, height: 480 }), wide],
+    ['maps within a map of YAML in one line', 'cam0: {fx: 525, fy: 520, cx: 319.5, cy: 239.5, distortion: {k1: 0.1, k2: -0.2}}\n', { ...plain, k1: 0.1, k2: -0.2 }],
+    ['maps of YAML two deep', 'camera:\n  model: pinhole\n  intrinsics: {fx: 525, fy: 520, cx: 319.5, cy: 239.5}\n  distortion: {model: plumb_bob, coeffs: {k1: 0.1, k2: -0.2, p1: 0.001, p2: 0.002}}\n', { ...plain, ...lens, k3: undefined }],
+    ['as Python prints it, within another', "{'cam': {'fx': 525.0, 'fy': 520.0, 'cx': 319.5, 'cy': 239.5}}", plain],
+    ['as Python prints it, two of them', "{'left': {'fx': 525.0, 'fy': 520.0, 'cx': 319.5, 'cy': 239.5}, 'right': {'fx': 351.0, 'fy': 351.0, 'cx': 320.0, 'cy': 240.0}}", plain],
+    ['as Python prints it in lines', "{'fx': 525.0,\n 'fy': 520.0,\n 'cx': 319.5,\n 'cy': 237.0}", { ...plain, cy: 237 }],
+    ['maps of a list in YAML', 'cameras:\n  - id: left\n    intrinsics: {fx: 525, fy: 520, cx: 319.5, cy: 239.5}\n  - id: right\n    intrinsics: {fx: 351, fy: 351, cx: 320, cy: 240}\n', plain],
+    ['maps of a list in YAML in one line each', 'cameras:\n  - {fx: 525, fy: 520, cx: 319.5, cy: 239.5}\n  - {fx: 351, fy: 351, cx: 320, cy: 240}\n', plain],
+    ['a size beside the camera', JSON.stringify({ intrinsics: { fx: 525, fy: 520, cx: 1200, cy: 1000 }, resolution: [3072, 2304] }), { fx: 525, fy: 520, cx: 1200, cy: 1000, width: 3072, height: 2304 }],
+    ['the axis to the right of the image only', JSON.stringify({ fx: 525, fy: 520, cx: 319.5, width: 640, height: 480 }), { ...plain, cy: 240 }],
+    ['the axis down the image only', JSON.stringify({ fx: 525, fy: 520, cy: 239.5, width: 640, height: 480 }), { ...plain, cx: 320 }],
+    ['`topic echo`, with the end of its document', `d:\n- 0.1\n- -0.2\n- 0.001\n- 0.002\n- 0.0\nk:\n- ${list.split(', ').join('\n- ')}\n---\n`, { ...plain, ...lens }],
+    ['the end of a document of YAML', `k:\n- ${list.split(', ').join('\n- ')}\nd:\n- 0.1\n- -0.2\n- 0.001\n- 0.002\n- 0.0\n...\n`, { ...plain, ...lens }],
+    ['a model that is a device', JSON.stringify({ model: 'OmniVision OV5647', fx: 525, fy: 520, cx: 319.5, cy: 239.5 }), plain],
+    ['a model that is a device with a field of view', JSON.stringify({ model: 'HFOV 60 webcam', fx: 525, fy: 520, cx: 319.5, cy: 239.5 }), plain],
   ];
   for (const [name, text, expected] of known) {
     const found = /** @type {any} */ (developable.parseCamera(text, images));
@@ -290,14 +309,25 @@ test('cameras as ROS, OpenCV, COLMAP, nerfstudio, Metashape, ZED and others writ
     assert.deepEqual(Object.keys(found).sort(), wanted.map(([key]) => key).sort(), name);
     for (const [key, value] of wanted) assert.ok(Math.abs(found[key] - value) < 1e-9, `${name}: ${key} is ${found[key]}`);
   }
+  const chain = (/** @type {string[]} */ ...lenses) => lenses.map((lens, i) => `cam${i}:\n  camera_model: pinhole\n  distortion_coeffs: [0.1, -0.2, 0.001, 0.002]\n` +
+    `  distortion_model: ${lens}\n  intrinsics: [${525 - i}, 520, 319.5, 239.5]\n  resolution: [640, 480]\n`).join('');
   for (const [text, message] of /** @type {[string, RegExp][]} */ ([
     ['1 OPENCV_FISHEYE 640 480 500 500 320 240 0.1 0 0 0', /lens.*OPENCV_FISHEYE.*undistort/],
     ['1 FULL_OPENCV 640 480 500 500 320 240 0.1 0 0 0 0 0.2 0 0', /lens.*undistort/],
     ['<calibration><projection>fisheye</projection><width>640</width><height>480</height><f>300</f><cx>-4</cx><cy>0.5</cy></calibration>', /lens \(fisheye\)/],
     [JSON.stringify({ fl_x: 500, fl_y: 500, cx: 320, cy: 240, w: 640, h: 480, is_fisheye: true }), /lens \(fisheye\)/],
     ['Camera.type: "KannalaBrandt8"\nCamera1.fx: 190\nCamera1.fy: 190\nCamera1.cx: 320\nCamera1.cy: 240\n', /lens \(KannalaBrandt8\)/],
+    [JSON.stringify({ all: { projection_type: 'fisheye', width: 640, height: 480, focal: 0.85, k1: 0, k2: 0 } }), /lens \(fisheye\)/],
+    [JSON.stringify({ all: { projection_type: 'dual', width: 640, height: 480, focal: 0.85, k1: 0, k2: 0, transition: 1 } }), /lens \(dual\)/],
+    ...['fisheye', 'OPENCV_FISHEYE', 'FOV', 'kannala_brandt4', 'Equidistant', 'omni'].map((model) => /** @type {[string, RegExp]} */ (
+      [JSON.stringify({ model, fx: 525, fy: 520, cx: 319.5, cy: 239.5 }), new RegExp(`lens \\(${model}\\)`)])),
+    ['distortion_model: KB\nfx: 525\nfy: 520\ncx: 319.5\ncy: 239.5\n', /lens \(KB\)/],
+    // Of a pair of cameras of the same size it is the first one.
+    [chain('equidistant', 'radtan'), /lens \(equidistant\)/],
   ])) assert.throws(() => developable.parseCamera(text, images), message);
   // The lens of another camera in the file says nothing of this one.
+  assert.equal(developable.parseCamera(chain('radtan', 'equidistant'), images).fx, 525);
+  assert.equal(developable.parseCamera('1 RADIAL_FISHEYE 3072 2304 2500 1536 1152 0.1 0.1\n2 PINHOLE 640 480 525 520 319.5 239.5\n', images).fx, 525);
   assert.equal(developable.parseCamera('1 RADIAL_FISHEYE 3072 1728 2500 1536 864 0.1 0.1\n2 PINHOLE 640 480 525 520 319.5 239.5\n', images).fx, 525);
   // COLMAP's cameras.bin: a camera of three numbers, and one with a lens.
   const binary = new DataView(new ArrayBuffer(8 + 24 + 3 * 8 + 24 + 8 * 8));
@@ -315,6 +345,7 @@ test('cameras as ROS, OpenCV, COLMAP, nerfstudio, Metashape, ZED and others writ
   assert.equal(developable.parseCamera(new Uint8Array(binary.buffer), [{ width: 1536, height: 864 }]).fx, 2500);
   assert.throws(() => developable.parseCamera(new Uint8Array(binary.buffer, 0, 100), images), /no camera/);
   assert.throws(() => developable.parseCamera('{"fov_x": 60}'), /size of the images/);
+  assert.throws(() => developable.parseCamera(/** @type {any} */ (5)), error('INPUT', /text.*Uint8Array.*5/));
   // Open3D writes a pose before the camera.
   const posed = { extrinsic: [0.6, 0.8, 0, 0, -0.8, 0.6, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 2, 1],
     intrinsic: { height: 480, intrinsic_matrix: [525, 0, 0, 0, 520, 0, 319.5, 239.5, 1], width: 640 } };

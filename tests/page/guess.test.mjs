@@ -4,6 +4,7 @@ import { test } from 'node:test';
 import { assumedInWords } from '../../www/messages.js';
 import { coarseningFor } from '../../www/import-interpretation.js';
 import { plainMessage } from '../../www/error-messages.js';
+import { kindByName, unreadableKindInWords } from '../../www/file-kinds.js';
 import { routeFiles } from '../../www/file-routing.js';
 import { Book } from '../../www/page/book.js';
 
@@ -43,6 +44,13 @@ test('a grey PNG beside one in colour holds its depths, but is a page among phot
   const route = (/** @type {boolean} */ inPhotoMode) => routeFiles(files, inPhotoMode);
   assert.deepEqual([(await route(false)).to, (await route(true)).to], ['heights', 'photos']);
   assert.deepEqual((await route(true)).files, files);
+});
+
+test('cameras of COLMAP belong to depths, and its depths are no cameras', async () => {
+  const [depths, cameras] = ['depth.npy', 'cameras.bin'].map((name) => new File([], name));
+  assert.deepEqual(await routeFiles([cameras, depths], false), { to: 'heights', files: [cameras, depths], left: [] });
+  assert.match(unreadableKindInWords(cameras), /cameras.*together with/);
+  assert.deepEqual(['cameras (1).bin', 'photo.jpg.geometric.bin', 'cameras.jpg.geometric.bin', 'scan.bin'].map((name) => kindByName({ name })), ['camera', null, null, null]);
 });
 
 test('the outline of a shown photo is kept when another one is put back before it', () => {

@@ -9,7 +9,7 @@
 
 use super::options::DrawingOptions;
 use crate::error::{Error, Result};
-use crate::math::planar::{distance, nearest_on_segment, polyline_length};
+use crate::math::planar::{distance, nearest_on_segment, polygon_contains, polyline_length};
 use crate::pattern::{Fold, Run, Sheet};
 use crate::unroll::flat_triangle::Point;
 
@@ -207,7 +207,7 @@ impl Bend {
         let area =
             |side: usize| -> Vec<Point> { self.sides[side].iter().map(|(p, _)| *p).collect() };
         let areas = [0, 1].map(area);
-        let side = |place: Point| match is_inside(&areas[0], place) {
+        let side = |place: Point| match polygon_contains(&areas[0], place) {
             true => 0,
             false => 1,
         };
@@ -308,14 +308,4 @@ fn rebuild(outline: &mut [Run], corners: &[Corner]) {
     for (k, run) in outline.iter_mut().enumerate() {
         run.points.push(firsts[(k + 1) % count]);
     }
-}
-
-/// Returns whether a point is inside of a closed polyline.
-fn is_inside(line: &[Point], place: Point) -> bool {
-    let next = line.iter().cycle().skip(1);
-    let crossed = line.iter().zip(next).filter(|(p, q)| {
-        let spans = (p.im > place.im) != (q.im > place.im);
-        spans && place.re < p.re + (place.im - p.im) / (q.im - p.im) * (q.re - p.re)
-    });
-    crossed.count() % 2 == 1
 }

@@ -130,16 +130,10 @@ impl DrawnSheet {
             outer.clear();
             leaders.clear();
         }
-        let folds = lines
-            .folds
-            .iter()
-            .chain(&tabs)
-            .flat_map(|line| line.points.windows(2));
-        let drawn: Vec<[[f64; 2]; 2]> = walls
-            .into_iter()
-            .chain(folds.map(|p| [p[0], p[1]]))
+        let folds: Vec<[[f64; 2]; 2]> = (lines.folds.iter().chain(&tabs))
+            .flat_map(|line| line.points.windows(2).map(|p| [p[0], p[1]]))
             .collect();
-        let labels = Label::without_collisions(outer, labels, &drawn);
+        let labels = Label::without_collisions(outer, labels, &walls, &folds);
         let unlettered = (sides.iter())
             .filter(|(_, texts)| !texts.iter().any(|text| labels.contains(text)))
             .map(|((crease, _), _)| *crease)

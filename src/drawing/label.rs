@@ -3,7 +3,7 @@
 use super::curve::Curve;
 use super::line::{FLATTENING_TOLERANCE_MM, Line, place_at};
 use super::tabs::Tab;
-use crate::math::planar::{Point2, bounds, cross, distance, polyline_length};
+use crate::math::planar::{Point2, bounds, cross, distance, is_within, polyline_length};
 use crate::pattern::{Direction, Seam};
 
 /// Font size of a text beside a sheet, in millimetres. Texts on a sheet have half of it at least, along a line it at most, and
@@ -147,13 +147,14 @@ impl Label {
         from < to
     }
 
-    /// Chooses for each text the first of its candidates that lies on no line and on no other text, letters of seams first and
-    /// angles of folds last; a text without such a candidate is left out. Those `beside` the sheet, at leader lines, are kept. The
-    /// letter of a seam may lie on lines, if need be.
+    /// Chooses for each text the first of its candidates that lies within the outlines, on none of them or of the folds, and on no other
+    /// text, letters of seams first and angles of folds last; a text without such a candidate is left out. Those `beside` the sheet, at
+    /// leader lines, are kept. The letter of a seam may lie on lines, if need be.
     pub(super) fn without_collisions(
         beside: Vec<Label>,
         mut texts: Vec<Vec<Label>>,
-        lines: &[[[f64; 2]; 2]],
+        outlines: &[[[f64; 2]; 2]],
+        folds: &[[[f64; 2]; 2]],
     ) -> Vec<Label> {
         let rank = |candidates: &Vec<Label>| match candidates.first().map(|label| label.kind) {
             Some(LabelKind::Seam) => 0,
@@ -172,8 +173,11 @@ impl Label {
                     line[0][k].min(line[1][k]) <= high[k] && line[0][k].max(line[1][k]) >= low[k]
                 })
             };
-            let near: Vec<_> = lines.iter().filter(is_near).collect();
-            let is_apart = |label: &Label| !out.iter().any(|other| label.touches(other));
+            let near: Vec<_> = outlines.iter().chain(folds).filter(is_near).collect();
+            let is_apart = |label: &Label| {
+                is_within(label.place, outlines.iter().copied())
+                    && !out.iter().any(|other| label.touches(other))
+            };
             let is_free = |label: &&Label| {
                 is_apart(label) && !near.iter().any(|line| label.is_crossed_by(line))
             };

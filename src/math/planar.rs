@@ -151,8 +151,13 @@ pub(crate) fn polygon_area<P: Planar>(polygon: &[P]) -> f64 {
 
 /// Returns whether a point is inside of a closed polygon, by the even-odd rule.
 pub(crate) fn polygon_contains<P: Planar>(polygon: &[P], point: P) -> bool {
+    is_within(point, polygon_edges(polygon))
+}
+
+/// Returns whether a point is within closed lines, given by all their edges, by the even-odd rule.
+pub(crate) fn is_within<P: Planar>(point: P, edges: impl Iterator<Item = [P; 2]>) -> bool {
     let [x, y] = point.xy();
-    let crossings = polygon_edges(polygon).filter(|[a, b]| {
+    let crossings = edges.filter(|[a, b]| {
         let ([qx, qy], [px, py]) = (a.xy(), b.xy());
         (py > y) != (qy > y) && x < (qx - px) * (y - py) / (qy - py) + px
     });

@@ -641,3 +641,33 @@ fn the_picture_of_an_assembly_has_its_lines_where_the_creases_are() {
     }
     assert!(quarters.iter().all(|points| *points > 50), "{quarters:?}");
 }
+
+#[test]
+fn no_text_lies_beyond_its_sheet_however_small_that_is() {
+    let net = pattern_exact(&cube(1), &NetOptions::default()).unwrap();
+    for scale in [30.0, 3.0, 1.0, 0.3] {
+        for sheets in [&net.sheets, &pyramid()] {
+            let drawing = drawn(sheets, DrawingOptions::default().scale(scale).tabs(2.0));
+            for sheet in &drawing.sheets {
+                let ends: Vec<_> = sheet
+                    .leaders
+                    .iter()
+                    .map(|line| *line.controls().last().unwrap())
+                    .collect();
+                let is_beside = |place: [f64; 2]| {
+                    (ends.iter()).any(|end| (end[0] - place[0]).hypot(end[1] - place[1]) < 4.5)
+                };
+                for label in sheet
+                    .labels
+                    .iter()
+                    .filter(|label| label.kind != LabelKind::Sheet)
+                {
+                    assert!(
+                        inside(label.place, &sheet.cuts) || is_beside(label.place),
+                        "{scale} {label:?}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -110,22 +110,24 @@ export class MeshFit extends Events {
   }
 
   /**
-   * The sheets of the fitted surface, or of the input where flat faces are found in its noise: these are more exact than a fit.
-   * @param {Mesh} surface
+   * The sheets of the fitted surface, or of the input where its faces are known, which is more exact than a fit.
+   * @param {MeshSurface} surface
    * @param {import('../pkg/types.js').MeshPatternOptions} options
    * @param {Tell} tell
    */
   async pattern(surface, options, tell) {
     const mesh = this.mesh ?? surface;
     const { kind, thickness } = await this.recognized(mesh);
-    const laidFlat = kind === 'noisyFaces' ? mesh : surface;
+    const isKnown = kind === 'noisyFaces' || (kind === 'faces' && this.lambda === 'auto');
+    const laidFlat = isKnown ? mesh : surface;
+    const smooth = isKnown || surface.report.stopReason === 'noNoise' ? {} : { exact: false };
     // A solid of sheet metal has a thickness of its own.
     const { thickness: _thickness, innerRadius: _innerRadius, ...others } = options;
     const own = thickness !== undefined && options.thickness !== undefined ? { ...others, blank: true } : options;
     // Card shows what the model looks like.
     const printed = kind === 'faces' && laidFlat.textures !== undefined && options.thickness === undefined;
     return this.#tasks.answer(laidFlat, `pattern ${JSON.stringify(options)}`, (worker) =>
-      worker.patternMesh(printed ? laidFlat : geometryOf(laidFlat), { ...own, printed, onProgress: tell }));
+      worker.patternMesh(printed ? laidFlat : geometryOf(laidFlat), { ...own, ...smooth, printed, onProgress: tell }));
   }
 }
 

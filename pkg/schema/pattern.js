@@ -169,7 +169,7 @@ export const model = {
   },
   /**
    * Whether the mesh's faces are moved into the plane as they are, without strain, and not laid flat as a smooth surface.
-   * Default: what `recognizeMesh` says.
+   * Default: what `recognizeMesh` says of the mesh; of one that was fitted say `false`, for few triangles of it are a low-poly model.
    */
   exact: { kind: flag },
   /**

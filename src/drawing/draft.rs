@@ -14,7 +14,7 @@ use super::pack::Place;
 use super::sheet::{DrawnSheet, PrintedTriangle};
 use super::tabs::add_tabs;
 use crate::error::{Error, Result, rounded};
-use crate::pattern::Sheet;
+use crate::pattern::{Seam, Sheet};
 
 /// Assigns letters to the creases that are cut, by which both sides of a seam are labelled; returns the letters by the
 /// creases' numbers.
@@ -101,23 +101,25 @@ impl DrawnSheet {
                 None => labels.push(label.in_sizes()),
             }
         }
-        let mut sides: BTreeMap<(usize, Option<u32>), Vec<Label>> = BTreeMap::new();
-        let mut letter_side = |crease: usize, patch: Option<u32>, texts: Vec<Label>| {
-            let side = sides.entry((crease, patch)).or_default();
+        // Texts of each side of a cut; both sides of a slit have one patch, and each is a run of the outline.
+        let mut sides: BTreeMap<(usize, Option<u32>, usize), Vec<Label>> = BTreeMap::new();
+        let mut letter_side = |seam: &Seam, patch: Option<u32>, run: usize, texts: Vec<Label>| {
+            let run = if seam.slit { run } else { 0 };
+            let side = sides.entry((seam.crease, patch, run)).or_default();
             side.extend(texts.iter().cloned());
             labels.push(texts);
         };
-        for (run, curve) in lines.outlines.iter().flatten() {
+        for (number, (run, curve)) in lines.outlines.iter().flatten().enumerate() {
             if let Some(seam) = &run.seam
                 && let Some(letter) = letters.get(&seam.crease)
             {
                 let texts = Label::seam(letter, seam, &curve.points(FLATTENING_TOLERANCE_MM));
-                letter_side(seam.crease, run.patch, texts);
+                letter_side(seam, run.patch, number, texts);
             }
         }
         for tab in &flaps {
             if let Some(letter) = letters.get(&tab.seam.crease) {
-                letter_side(tab.seam.crease, tab.patch, Label::tab(letter, tab));
+                letter_side(&tab.seam, tab.patch, tab.run, Label::tab(letter, tab));
             }
         }
         labels.extend(lines.folds.iter().map(Label::fold));
@@ -136,7 +138,7 @@ impl DrawnSheet {
         let labels = Label::without_collisions(outer, labels, &walls, &folds);
         let unlettered = (sides.iter())
             .filter(|(_, texts)| !texts.iter().any(|text| labels.contains(text)))
-            .map(|((crease, _), _)| *crease)
+            .map(|((crease, ..), _)| *crease)
             .collect();
         let sheet = DrawnSheet {
             name,

@@ -21,6 +21,7 @@ pub struct Line {
     /// [`Patches::creases`](crate::shape::patches::Patches::creases).
     pub crease: usize,
     /// Numbers of the patches on either side of the fold line, from 0, the lower one first.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub patches: [u32; 2],
     /// Whether the fold is a mountain or a valley fold, seen from above.
     pub direction: Direction,

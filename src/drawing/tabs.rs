@@ -13,6 +13,8 @@ pub(super) struct Tab {
     pub seam: Seam,
     /// Patch that the tab is on.
     pub patch: Option<u32>,
+    /// Number of the run of the outlines that it is on.
+    pub run: usize,
     /// Fold line between tab and sheet, in the direction of the outline.
     pub base: Curve,
     pub depth: f64,
@@ -127,9 +129,10 @@ pub(super) fn add_tabs(
         }
     }
     let mut cuts = Vec::new();
+    let mut numbers = 0..;
     for (outline, pieces) in outlines.iter().zip(pieces) {
         let mut cut = Curve::of(Vec::new());
-        for ((run, curve), bases) in outline.iter().zip(pieces) {
+        for (((run, curve), bases), number_of_run) in outline.iter().zip(pieces).zip(&mut numbers) {
             let Some((depth, seam)) = tabbed(run) else {
                 cut.append(curve);
                 continue;
@@ -154,6 +157,7 @@ pub(super) fn add_tabs(
                 tabs.push(Tab {
                     seam,
                     patch: run.patch,
+                    run: number_of_run,
                     base,
                     depth,
                     middle: [0, 1].map(|k| line.iter().map(|c| c[k]).sum::<f64>() / 4.0),

@@ -32,8 +32,7 @@ const MIN_PLANAR_SHARE: f64 = 0.5;
 #[non_exhaustive]
 pub enum Exactness {
     /// The faces: the mesh is made of strips that bend, or its vertices have no noise and its faces are planes of several
-    /// triangles, or so few that each is a face of its own. [`pattern_exact`](crate::pattern::pattern_exact) lays such a mesh
-    /// flat as it is.
+    /// triangles, or meet at large angles. [`pattern_exact`](crate::pattern::pattern_exact) lays such a mesh flat as it is.
     Faces,
     /// The vertices, though the faces may be those of a smooth surface: half of the area lies in planes of several triangles to
     /// rounding, and bends are alike at neighbours.
@@ -78,8 +77,9 @@ fn are_faces_exact(solid: &Polyhedron) -> bool {
     strips >= MIN_STRIP_SHARE || (has_faces && has_no_noise(solid))
 }
 
-/// Whether a mesh has so few faces that each is one that was meant, and no sign of noise.
-pub(crate) fn are_faces_few(mesh: &Mesh) -> bool {
+/// Whether a mesh has so few faces that each is one that was meant, and no sign of noise: bends that are alike at neighbours, or faces
+/// of several triangles.
+pub(crate) fn has_few_exact_faces(mesh: &Mesh) -> bool {
     Polyhedron::new(mesh).is_ok_and(|solid| {
         let inner = solid.twins.iter().filter(|twin| **twin != NO_INDEX).count() / 2;
         let flat = inner - solid.inner_sides().count();

@@ -305,20 +305,24 @@ fn both_sides_of_each_cut_have_the_same_letter() {
 #[test]
 fn cuts_without_room_for_their_letters_are_counted() {
     let net = pattern_exact(&cube(1), &NetOptions::default()).unwrap();
-    let mut without = 0;
-    for scale in [100.0, 5.0, 2.0, 1.0] {
-        let drawing = drawn(&net.sheets, DrawingOptions::default().scale(scale));
-        let labels = drawing.sheets.iter().flat_map(|sheet| &sheet.labels);
-        let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-        for label in labels.filter(|label| label.kind == LabelKind::Seam) {
-            *counts.entry(&label.text).or_default() += 1;
+    // One sheet that is slit.
+    let cone = sheets(&unit_square(60, |x, y| -0.5 * (x - 0.502).hypot(y - 0.503)));
+    for sheets in [&net.sheets, &cone] {
+        let mut without = 0;
+        for scale in [100.0, 5.0, 2.0, 1.0, 0.3] {
+            let drawing = drawn(sheets, DrawingOptions::default().scale(scale));
+            let labels = drawing.sheets.iter().flat_map(|sheet| &sheet.labels);
+            let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+            for label in labels.filter(|label| label.kind == LabelKind::Seam) {
+                *counts.entry(&label.text).or_default() += 1;
+            }
+            let both = counts.values().filter(|count| **count == 2).count();
+            without = drawing.summary.seams + drawing.summary.slits - both;
+            assert_eq!(drawing.summary.unlettered, without, "scale {scale}");
+            assert!(without == 0 || scale < 100.0);
         }
-        let both = counts.values().filter(|count| **count == 2).count();
-        without = drawing.summary.seams - both;
-        assert_eq!(drawing.summary.unlettered, without, "scale {scale}");
-        assert!(without == 0 || scale < 100.0);
+        assert!(without > 0);
     }
-    assert!(without > 0);
 }
 
 #[test]

@@ -103,6 +103,7 @@ pub(super) fn read(
     }
     if let (None, Some(unit)) = (height_scale, own_unit) {
         height_scale = Some(unit);
+        offset *= unit;
         let words = match unit {
             1.0 => "heights are in millimetres",
             _ => "heights are in the unit of the pixels' size",

@@ -136,7 +136,7 @@ impl StoredImage {
                 self.no_data.is_some(),
             ));
         }
-        // COLMAP has a unit of its own, and nothing but depths; on a map, there are heights.
+        // COLMAP writes nothing but depths, whose unit no file says: taken for metres. On a map, there are heights.
         let are_depths = self.format == Format::Colmap;
         let depth_unit = match are_depths {
             true => Unit::Metre,

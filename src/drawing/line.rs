@@ -8,6 +8,9 @@ use crate::pattern::{Direction, Fold, Seam};
 /// Maximum distance between a curve of a drawing and the polyline that approximates it, in millimetres.
 pub(super) const FLATTENING_TOLERANCE_MM: f64 = 0.02;
 
+/// Angle of a fold, in degrees, below which it is not drawn: its label, in whole degrees, would say that it is none.
+pub(super) const MIN_FOLD_ANGLE: f64 = 0.5;
+
 /// A fold line of a drawn sheet: a line along which the sheet is folded.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(

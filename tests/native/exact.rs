@@ -702,3 +702,32 @@ fn models_of_few_faces_are_built_face_by_face_however_little_these_fold() {
     let triangles = (0..sides).map(|k| [0, 1 + k, 1 + (k + 1) % sides]);
     assert!(matches!(kind(points, triangles.collect()), MeshKind::Faces));
 }
+
+/// What rounding in a file bends a quad by is no fold that anybody makes.
+#[test]
+fn folds_that_round_to_no_angle_are_not_drawn() {
+    // A gable of two squares that meet at a right angle; one corner of the left one is lifted from its plane.
+    let folded = |lift: f64| {
+        let side = 0.5_f64.sqrt();
+        let corners = vec![
+            [-side, 0.0, -side + lift],
+            [0.0, 0.0, 0.0],
+            [side, 0.0, -side],
+            [-side, 1.0, -side],
+            [0.0, 1.0, 0.0],
+            [side, 1.0, -side],
+        ];
+        let triangles = vec![[0, 1, 3], [1, 4, 3], [1, 2, 5], [1, 5, 4]];
+        let mesh = Mesh::new(corners, triangles).unwrap();
+        let pattern = pattern_exact(&mesh, &NetOptions::default()).unwrap();
+        let drawing = Drawing::new(&pattern.sheets, &DrawingOptions::default()).unwrap();
+        let angles = drawing.sheets.iter().flat_map(|sheet| &sheet.folds);
+        let angles: Vec<f64> = angles.map(|fold| fold.angle.round()).collect();
+        (pattern.sheets[0].folds.len(), angles)
+    };
+    assert_eq!(folded(0.0), (1, vec![90.0]));
+    assert_eq!(folded(0.005), (2, vec![90.0]));
+    let (count, mut angles) = folded(0.02);
+    angles.sort_by(f64::total_cmp);
+    assert_eq!((count, angles), (2, vec![1.0, 90.0]));
+}

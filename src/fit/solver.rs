@@ -14,8 +14,8 @@ use super::threads::Threads;
 use super::tuning::closed_form::{self, Known};
 use super::tuning::line_residuals::level_lines;
 use super::tuning::noise::Noise;
-use super::tuning::refinement::{Aim, MAX_RESIDUAL, Next, Refinement};
-use super::tuning::residual::Residual;
+use super::tuning::refinement::{MAX_RESIDUAL, Next, Refinement};
+use super::tuning::residual::root_mean_square;
 use super::tuning::search::{Search, trial_options};
 use super::warm_start::WarmStart;
 use crate::error::Result;
@@ -23,12 +23,6 @@ use crate::error::Result;
 /// Largest distance of a surface to the heights, in standard deviations of their noise, that noise explains. Above it a part
 /// of the shape is lost.
 const MAX_NOISE_DISTANCE: f64 = 1.3;
-
-/// Maximum number of solves at full size: λ is refined again where the coarse lattice was too coarse for the shape.
-const MAX_FULL_SOLVES: usize = 3;
-
-/// Maximum number of solves at full size for a tolerance that was asked for.
-const MAX_TOLERANCE_SOLVES: usize = 5;
 
 /// Number of solves by whose residuals rows and columns are levelled, one after the other: each leaves less of the offsets
 /// (`benches/scenes.md`, Offsets of rows).
@@ -143,12 +137,8 @@ impl Solver {
                 ..found
             });
             if let Some(aim) = aim.filter(|_| !is_levelling) {
-                let max_solves = match aim {
-                    Aim::Distance { is_exact: true, .. } => MAX_TOLERANCE_SOLVES,
-                    _ => MAX_FULL_SOLVES,
-                };
-                let spacing = prepared.input.field.lattice().spacing();
-                refinement = Some(Refinement::new(aim, spacing, 1.0, max_solves));
+                // λ is refined again where the coarse lattice was too coarse for the shape.
+                refinement = Some(Refinement::new(aim, 1.0));
                 search = Search::new(&prepared.input, &first, known, aim)?;
             }
         }
@@ -265,7 +255,7 @@ impl Solver {
         }
         let surface = self.solve.surface()?;
         let (input, domain) = (self.solve.input(), self.solve.domain());
-        let residual = |unit| Residual::of(input, domain, surface.heightfield(), unit);
+        let residual = |unit| root_mean_square(input, domain, surface.heightfield(), unit);
         let options = *self.solve.options();
         let lambda = options.lambda_or_default().value();
         let is_solved = matches!(reason, StopReason::Gap | StopReason::Rounding);
@@ -280,7 +270,7 @@ impl Solver {
         }
         self.refinement = None;
         if noise.vertex_sigma > 0.0 && choice.reason != LambdaReason::NoNoise {
-            let ratio = residual([noise.vertex_sigma, MAX_RESIDUAL])?.rms;
+            let ratio = residual([noise.vertex_sigma, MAX_RESIDUAL])?;
             choice.residual_ratio = Some(ratio);
             choice.residual_exceeds_noise =
                 choice.tolerance.is_none() && ratio > MAX_NOISE_DISTANCE;

@@ -9,6 +9,7 @@ mod tolerance;
 pub use energy::{Border, Energy, Schedule};
 pub(crate) use huber::HuberOptions;
 pub use lambda::Lambda;
+pub(crate) use ranges::LAMBDA_RANGE;
 pub use tolerance::Tolerance;
 
 use crate::heights::normalization::Normalization;

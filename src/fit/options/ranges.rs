@@ -6,7 +6,7 @@ use crate::fit::threads::MAX_THREADS;
 
 /// Range of the fidelity weight λ: outside of it one of the energy's two terms vanishes beside the other, even in
 /// double precision.
-const LAMBDA_RANGE: std::ops::RangeInclusive<f64> = 1e-12..=1e15;
+pub(crate) const LAMBDA_RANGE: std::ops::RangeInclusive<f64> = 1e-12..=1e15;
 
 /// Range of the Huber penalty's bend radius and crease radius, in normalised coordinates: from far below a spacing to
 /// far beyond any surface.

@@ -4,7 +4,7 @@ use super::noise::Noise;
 use super::refinement::Aim;
 use crate::error::Result;
 use crate::fit::input::Input;
-use crate::fit::options::{Energy, HuberOptions, Lambda, Options};
+use crate::fit::options::{Energy, HuberOptions, LAMBDA_RANGE, Lambda, Options};
 use crate::fit::report::{LambdaChoice, LambdaReason};
 
 /// Product `λ σ h` under white noise, in normalised coordinates: σ is the noise's standard deviation, h the spacing. The
@@ -15,10 +15,6 @@ const WHITE_LAMBDA_NOISE: f64 = 8.0;
 /// normalised coordinates. It is larger than under white noise, since a shape beside such noise makes the noise look
 /// larger than it is (`benches/scenes.md`).
 const CORRELATED_LAMBDA_NOISE: f64 = 14.0;
-
-/// Maximum λ that follows from noise. An input whose noise is so small that it asks for a larger one counts as free
-/// of noise and gets [`WITHOUT_NOISE`].
-const MAX_NOISE_LAMBDA: f64 = 1e9;
 
 /// λ of an input that is free of noise.
 const WITHOUT_NOISE: Lambda = Lambda::Big;
@@ -96,12 +92,12 @@ pub(crate) fn initial_options(
         };
         product / (noise.product * scale * scale)
     });
-    let is_noise = noise.is_some_and(|noise| noise.white_equivalent >= MIN_NOISE_SHARE * range);
+    let is_noise = noise.is_some_and(|noise| noise.white_equivalent > MIN_NOISE_SHARE * range);
     let lambda = match lambda {
         None => Lambda::Medium,
-        Some(lambda) if lambda <= MAX_NOISE_LAMBDA && is_noise => {
+        Some(lambda) if is_noise && lambda <= *LAMBDA_RANGE.end() => {
             choice.reason = LambdaReason::Noise;
-            Lambda::Value(lambda.max(1.0 / MAX_NOISE_LAMBDA))
+            Lambda::Value(lambda.max(*LAMBDA_RANGE.start()))
         }
         Some(_) => {
             choice.reason = LambdaReason::NoNoise;

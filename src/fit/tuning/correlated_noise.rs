@@ -46,9 +46,9 @@ pub(super) struct CorrelatedNoise {
     /// Correlation length, in spacings: the standard deviation of the Gaussian blur that makes such noise of white
     /// noise.
     pub length: f64,
-    /// Number of vertices that share one independent value of the noise: the sum of its correlations over the lattice, or
-    /// less where the largest discs show less.
-    pub shared_vertices: f64,
+    /// Standard deviation of white noise that has the same spectral density over large areas, as far as the largest discs show
+    /// it.
+    pub white_equivalent: f64,
     /// Whether the noise is much rougher in one direction than in the other.
     pub is_anisotropic: bool,
 }
@@ -79,14 +79,9 @@ impl CorrelatedNoise {
         Some(CorrelatedNoise {
             sigma: found.sigma,
             length: found.length,
-            shared_vertices: found.shared_vertices,
+            white_equivalent: found.sigma * found.shared_root,
             is_anisotropic,
         })
-    }
-
-    /// Standard deviation of white noise that has the same spectral density as this noise over large areas.
-    pub(super) fn white_equivalent(&self) -> f64 {
-        self.sigma * self.shared_vertices.sqrt()
     }
 }
 
@@ -100,7 +95,8 @@ fn is_anisotropic(scale: &CurvatureScale) -> bool {
 struct Covariance {
     sigma: f64,
     length: f64,
-    shared_vertices: f64,
+    /// Square root of the number of vertices that share one independent value of the noise, as far as the largest discs show it.
+    shared_root: f64,
     /// Root mean square of the logarithms of the ratios of the measured noise to this one's.
     misfit: f64,
 }
@@ -126,13 +122,13 @@ impl Covariance {
         }
         let (misfit, length, sigma) = best;
         // No more of the noise is taken for granted than the largest discs show.
-        let shown = scales
+        let shared_root = scales
             .last()
             .map_or(1.0, |scale| response(scale, discs, length));
         Covariance {
             sigma,
             length,
-            shared_vertices: shared_vertices(length).min(shown * shown),
+            shared_root,
             misfit: (misfit / scales.len() as f64).sqrt(),
         }
     }
@@ -155,42 +151,13 @@ fn response(scale: &CurvatureScale, discs: &[Disc], length: f64) -> f64 {
     spacing * (own / blurred * sum).sqrt()
 }
 
-/// Returns the sum of the correlations of the noise at one vertex with that at all vertices, for a correlation length
-/// in spacings.
-fn shared_vertices(length: f64) -> f64 {
-    if length == 0.0 {
-        return 1.0;
-    }
-    let reach = (8.0 * length).ceil() as i64 + 1;
-    let correlation = |row: i64, half: i64| {
-        let squares = 0.25 * (half * half) as f64 + 0.75 * (row * row) as f64;
-        (-squares / (4.0 * length * length)).exp()
-    };
-    (-reach..=reach)
-        .flat_map(|row| (-2 * reach..=2 * reach).map(move |half| (row, half)))
-        .filter(|(row, half)| (row + half) % 2 == 0)
-        .map(|(row, half)| correlation(row, half))
-        .sum()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::fit::tuning::curvature_scales::DISC_RADII;
 
-    /// Far more than a spacing, the sum is the integral over the plane: `4πℓ²` over the area of a cell.
-    #[test]
-    fn vertices_share_values_over_the_correlated_area() {
-        let area = 0.75f64.sqrt();
-        for length in [1.0, 3.0] {
-            let integral = 4.0 * std::f64::consts::PI * length * length / area;
-            assert!((shared_vertices(length) / integral - 1.0).abs() < 1e-6);
-        }
-        assert!((shared_vertices(1e-3) - 1.0).abs() < 1e-12);
-    }
-
-    /// Discs that are much larger than the correlation length see white noise of the same spectrum; the response grows
-    /// with the disc until then.
+    /// Discs that are much larger than the correlation length see white noise of the same spectrum, whose variance is the integral
+    /// of the correlations over the plane, `4πℓ²`, over the area of a cell; the response grows with the disc until then.
     #[test]
     fn large_discs_see_the_whole_noise() {
         let discs: Vec<Disc> = DISC_RADII.iter().filter_map(|r| Disc::new(*r)).collect();
@@ -199,13 +166,14 @@ mod tests {
             disc,
             count: 1000,
             white_equivalent: 0.0,
-            coherence: 0.0,
             white_equivalent_across: 0.0,
+            coherence: 0.0,
             anisotropy: 1.0,
             likeness: 0.0,
         };
         for length in [1.0, 2.5] {
-            let whole = shared_vertices(length).sqrt();
+            let area = 0.75f64.sqrt();
+            let whole = (4.0 * std::f64::consts::PI * length * length / area).sqrt();
             let seen = response(&scale(4, 1), &discs, length) / whole;
             assert!((seen - 1.0).abs() < 0.12, "{length} {seen}");
             let mut last = 0.0;

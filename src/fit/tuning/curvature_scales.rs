@@ -3,10 +3,12 @@
 //! A quadratic is fitted by least squares to all heights in a disc. A developable surface is straight along its rulings, which
 //! the discs beside it show, while noise bends in every direction at every scale, whatever its correlation.
 
+use super::merge::merge;
+use super::noise::sample;
 use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
-use crate::lattice::coarsening::coarse_lattice;
-use crate::lattice::hexagonal::{Lattice, ROW_SPACING};
+use crate::heights::heightfield::Heightfield;
+use crate::lattice::hexagonal::ROW_SPACING;
 use crate::math::fork;
 use crate::math::least_squares::LeastSquares;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
@@ -22,13 +24,6 @@ const MAX_LATTICES: usize = 5;
 /// Maximum number of rows, and of columns, whose vertices are centres of discs in which curvatures are measured. More
 /// of them cost time and make the medians hardly more exact.
 const MAX_CENTRE_ROWS: usize = 80;
-
-/// Minimum number of discs beside a disc that show the direction of its rulings.
-const MIN_DISCS_BESIDE: usize = 2;
-
-/// Minimum mean confidence of the heights in a disc, as a share of the largest confidence of the input, at which its
-/// curvature is measured.
-const MIN_DISC_CONFIDENCE: f64 = 0.5;
 
 /// Disc in which curvatures are measured: the offsets of its vertices from its centre, and the coefficients that give
 /// the Hessian of the quadratic fitted to their heights.
@@ -81,6 +76,27 @@ impl Disc {
             hessian,
             deviation: squares.sqrt(),
         })
+    }
+
+    /// Computes the Hessian of the quadratic fitted in the disc about a vertex, for a spacing of 1; `None` where a
+    /// height of the disc is missing.
+    fn hessian(&self, heights: &Heightfield, row: isize, col: isize) -> Option<Sym2> {
+        let mut entries = [0.0; 3];
+        for (offset, coefficients) in self.offsets.iter().zip(&self.hessian) {
+            let (row, col) = stepped(row, col, *offset);
+            if !heights.lattice().contains(row, col) {
+                return None;
+            }
+            let height = heights.height(row as usize, col as usize);
+            if height.is_nan() {
+                return None;
+            }
+            for (entry, coefficient) in entries.iter_mut().zip(coefficients) {
+                *entry += coefficient * height;
+            }
+        }
+        let [xx, xy, yy] = entries;
+        Some(Sym2::new(xx, xy, yy))
     }
 }
 
@@ -149,180 +165,91 @@ impl CurvatureScale {
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub(super) fn curvature_scales(input: &Input, discs: &[Disc]) -> Result<Vec<CurvatureScale>> {
-    let mut means = MeanHeights::from_input(input)?;
+    let lattice = *input.field.lattice();
+    let mut heights = try_filled("heights whose noise is measured", lattice.len(), f64::NAN)?;
+    for vertex in (0..lattice.len()).filter(|vertex| !input.is_occluded(*vertex)) {
+        heights[vertex] = sample(input, vertex, 0.0);
+    }
+    let mut means = Input::new(Heightfield::new(lattice, heights)?);
     let mut scales = Vec::new();
     for lattice in 0..MAX_LATTICES {
-        let mut measured: Vec<_> = discs.iter().map(|disc| (disc, None)).collect();
-        fork::for_each(&mut measured, |_, (disc, to)| *to = means.measure(disc));
-        for (index, (disc, measured)) in measured.into_iter().enumerate() {
-            let unit = MAD_TO_SIGMA / disc.deviation * f64::from(1u32 << lattice);
-            scales.extend(measured.map(|measured| CurvatureScale {
-                lattice,
-                disc: index,
-                count: measured.count,
-                white_equivalent: unit * measured.along,
-                white_equivalent_across: unit * measured.across,
-                coherence: measured.coherence,
-                anisotropy: measured.anisotropy,
-                likeness: measured.likeness,
-            }));
-        }
-        if means.lattice.rows() < 8 || means.lattice.cols() < 8 {
+        let mut measured: Vec<_> = (0..discs.len()).map(|disc| (disc, None)).collect();
+        fork::for_each(&mut measured, |_, (disc, to)| {
+            *to = measure(&means.field, lattice, *disc, &discs[*disc]);
+        });
+        scales.extend(measured.into_iter().filter_map(|(_, scale)| scale));
+        if means.field.lattice().rows() < 8 || means.field.lattice().cols() < 8 {
             break;
         }
-        means = means.coarser()?;
+        // White noise stays white.
+        means = merge(&means)?;
     }
     Ok(scales)
 }
 
-/// Medians of the absolute curvatures along the rulings and across them over the discs of one size, and how much they are
-/// alike from disc to disc, as in [`CurvatureScale`].
-struct Measured {
-    count: usize,
-    along: f64,
-    across: f64,
-    coherence: f64,
-    anisotropy: f64,
-    likeness: f64,
-}
-
-/// Heights, or their means over rhombi of 4, 16, 64 … vertices, with the means of their confidence. A height is NaN
-/// where one is missing.
-struct MeanHeights {
-    lattice: Lattice,
-    heights: Vec<f64>,
-    confidence: Vec<f64>,
-    min_confidence: f64,
-}
-
-impl MeanHeights {
-    fn from_input(input: &Input) -> Result<Self> {
-        let lattice = *input.field.lattice();
-        let mut heights = try_filled("heights whose noise is measured", lattice.len(), f64::NAN)?;
-        let mut confidence = try_filled("their confidence", lattice.len(), 0.0)?;
-        for vertex in 0..lattice.len() {
-            let weight = input.weight(vertex);
-            if weight > 0.0 && !input.is_constrained(vertex) && !input.is_occluded(vertex) {
-                heights[vertex] = input.field.heights()[vertex];
-                confidence[vertex] = weight;
-            }
-        }
-        let known = heights
-            .iter()
-            .zip(&confidence)
-            .filter(|(z, _)| z.is_finite());
-        let largest = known.map(|(_, weight)| *weight).fold(0.0, f64::max);
-        Ok(MeanHeights {
-            lattice,
-            heights,
-            confidence,
-            min_confidence: MIN_DISC_CONFIDENCE * largest,
-        })
-    }
-
-    /// Averages heights and confidence over four vertices each, onto the lattice of twice the spacing. White noise
-    /// stays white.
-    fn coarser(&self) -> Result<Self> {
-        let lattice = coarse_lattice(&self.lattice)?;
-        let mut heights = try_filled("mean heights", lattice.len(), f64::NAN)?;
-        let mut confidence = try_filled("mean confidence", lattice.len(), 0.0)?;
-        for row in 0..lattice.rows() {
-            for col in 0..lattice.cols() {
-                if let Some(four) = super::merge::rhombus(&self.lattice, row, col) {
-                    let vertex = lattice.index(row, col);
-                    heights[vertex] = 0.25 * four.map(|v| self.heights[v]).iter().sum::<f64>();
-                    confidence[vertex] =
-                        0.25 * four.map(|v| self.confidence[v]).iter().sum::<f64>();
-                }
-            }
-        }
-        Ok(MeanHeights {
-            lattice,
-            heights,
-            confidence,
-            ..*self
-        })
-    }
-
-    fn measure(&self, disc: &Disc) -> Option<Measured> {
-        let step = |size: usize| size.div_ceil(MAX_CENTRE_ROWS).max(1);
-        let [rows, cols] = [self.lattice.rows(), self.lattice.cols()];
-        let beside = 2 * disc.radius as isize + 1;
-        let directions = [(0, 2 * beside), (beside, beside), (beside, -beside)];
-        let mut curvatures: [Vec<f64>; 2] = Default::default();
-        let mut derivatives: [Vec<f64>; 2] = Default::default();
-        let (mut signs, mut cosines) = (0.0, [(0.0, 0.0); 3]);
-        for row in (0..rows as isize).step_by(step(rows)) {
-            for col in (0..cols as isize).step_by(step(cols)) {
-                let Some(hessian) = self.hessian(disc, row, col) else {
-                    continue;
-                };
-                let mut ring = Vec::with_capacity(6);
-                for ((rows, half), cosine) in directions.into_iter().zip(&mut cosines) {
-                    for offset in [(rows, half), (-rows, -half)] {
-                        let (row, col) = stepped(row, col, offset);
-                        if let Some(other) = self.hessian(disc, row, col) {
-                            let norms = (hessian.dot(hessian) * other.dot(other)).sqrt();
-                            if norms > 0.0 {
-                                cosine.0 += hessian.dot(other) / norms;
-                                cosine.1 += 1.0;
-                            }
-                            ring.push(other);
+/// Measures the curvatures of heights on the `lattice`-th lattice in discs of one size; `None` if none of them is measured.
+fn measure(
+    heights: &Heightfield,
+    lattice: usize,
+    index: usize,
+    disc: &Disc,
+) -> Option<CurvatureScale> {
+    let step = |size: usize| size.div_ceil(MAX_CENTRE_ROWS).max(1);
+    let [rows, cols] = [heights.lattice().rows(), heights.lattice().cols()];
+    let beside = 2 * disc.radius as isize + 1;
+    let directions = [(0, 2 * beside), (beside, beside), (beside, -beside)];
+    let mut curvatures: [Vec<f64>; 2] = Default::default();
+    let mut derivatives: [Vec<f64>; 2] = Default::default();
+    let (mut signs, mut cosines) = (0.0, [(0.0, 0.0); 3]);
+    for row in (0..rows as isize).step_by(step(rows)) {
+        for col in (0..cols as isize).step_by(step(cols)) {
+            let Some(hessian) = disc.hessian(heights, row, col) else {
+                continue;
+            };
+            let mut ring = Vec::with_capacity(6);
+            for ((rows, half), cosine) in directions.into_iter().zip(&mut cosines) {
+                for offset in [(rows, half), (-rows, -half)] {
+                    let (row, col) = stepped(row, col, offset);
+                    if let Some(other) = disc.hessian(heights, row, col) {
+                        let norms = (hessian.dot(hessian) * other.dot(other)).sqrt();
+                        if norms > 0.0 {
+                            cosine.0 += hessian.dot(other) / norms;
+                            cosine.1 += 1.0;
                         }
+                        ring.push(other);
                     }
                 }
-                if ring.len() < MIN_DISCS_BESIDE {
-                    continue;
-                }
-                let ruling = ruling(&ring);
-                let own = curvature(hessian, ruling);
-                let beside: f64 = ring.iter().map(|hessian| curvature(*hessian, ruling)).sum();
-                signs += own.signum() * beside.signum();
-                curvatures[0].push(own.abs());
-                curvatures[1].push((2.0 * hessian.mean - own).abs());
-                let [along, _, across] = hessian.entries();
-                derivatives[0].push(along.abs());
-                derivatives[1].push(across.abs());
             }
+            if ring.is_empty() {
+                continue;
+            }
+            let ruling = ruling(&ring);
+            let own = curvature(hessian, ruling);
+            let beside: f64 = ring.iter().map(|hessian| curvature(*hessian, ruling)).sum();
+            signs += own.signum() * beside.signum();
+            curvatures[0].push(own.abs());
+            curvatures[1].push((2.0 * hessian.mean - own).abs());
+            let [along, _, across] = hessian.entries();
+            derivatives[0].push(along.abs());
+            derivatives[1].push(across.abs());
         }
-        let [along, across] = &mut curvatures;
-        let [along_rows, across_rows] = &mut derivatives;
-        Some(Measured {
-            count: along.len(),
-            coherence: signs / along.len() as f64,
-            along: median(along)?,
-            across: median(across)?,
-            anisotropy: median(across_rows)? / median(along_rows)?,
-            likeness: (cosines.iter().filter(|(_, count)| *count > 0.0))
-                .map(|(sum, count)| sum / count)
-                .fold(1.0, f64::min),
-        })
     }
-
-    /// Computes the Hessian of the quadratic fitted in the disc about a vertex, for a spacing of 1; `None` where a
-    /// height of the disc is missing or the disc's mean confidence is too small.
-    fn hessian(&self, disc: &Disc, row: isize, col: isize) -> Option<Sym2> {
-        let mut entries = [0.0; 3];
-        let mut confidence = 0.0;
-        for (offset, coefficients) in disc.offsets.iter().zip(&disc.hessian) {
-            let (row, col) = stepped(row, col, *offset);
-            if !self.lattice.contains(row, col) {
-                return None;
-            }
-            let vertex = self.lattice.index(row as usize, col as usize);
-            let height = self.heights[vertex];
-            if height.is_nan() {
-                return None;
-            }
-            confidence += self.confidence[vertex];
-            for (entry, coefficient) in entries.iter_mut().zip(coefficients) {
-                *entry += coefficient * height;
-            }
-        }
-        let [xx, xy, yy] = entries;
-        let enough = confidence >= self.min_confidence * disc.offsets.len() as f64;
-        enough.then(|| Sym2::new(xx, xy, yy))
-    }
+    let [along, across] = &mut curvatures;
+    let [along_rows, across_rows] = &mut derivatives;
+    let count = along.len();
+    let unit = MAD_TO_SIGMA / disc.deviation * f64::from(1u32 << lattice);
+    Some(CurvatureScale {
+        lattice,
+        disc: index,
+        count,
+        white_equivalent: unit * median(along)?,
+        white_equivalent_across: unit * median(across)?,
+        coherence: signs / count as f64,
+        anisotropy: median(across_rows)? / median(along_rows)?,
+        likeness: (cosines.iter().filter(|(_, count)| *count > 0.0))
+            .map(|(sum, count)| sum / count)
+            .fold(1.0, f64::min),
+    })
 }
 
 /// Returns the direction in which Hessians bend least, as the cosine and the sine of its angle: the eigenvector of the sum of
@@ -351,7 +278,7 @@ pub(super) fn stepped(row: isize, col: isize, (rows, half): (isize, isize)) -> (
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::heights::heightfield::Heightfield;
+    use crate::lattice::hexagonal::Lattice;
 
     /// A quadratic is fitted exactly, whatever row its centre is in.
     #[test]
@@ -360,16 +287,16 @@ mod tests {
         let field = Heightfield::from_fn(lattice, |x, y| {
             1.0 + x - y + 0.5 * (0.3 * x * x - 0.2 * y * y) + 0.1 * x * y
         });
-        let means = MeanHeights::from_input(&field.unwrap().into()).unwrap();
+        let field = field.unwrap();
         for radius in DISC_RADII {
             let disc = Disc::new(radius).unwrap();
             for (row, col) in [(9, 9), (10, 9), (8, 12)] {
-                let [xx, xy, yy] = means.hessian(&disc, row, col).unwrap().entries();
+                let [xx, xy, yy] = disc.hessian(&field, row, col).unwrap().entries();
                 for (found, known) in [(xx, 0.3), (xy, 0.1), (yy, -0.2)] {
                     assert!((found - known).abs() < 1e-11, "{found} {known}");
                 }
             }
-            assert!(means.hessian(&disc, 1, 9).is_none());
+            assert!(disc.hessian(&field, 1, 9).is_none());
         }
     }
 }

@@ -5,6 +5,7 @@
 //! error. If the two are independent, the expected square is smallest for the surface nearest to the truth, whatever
 //! energy it minimises. They are independent only if noise is independent from vertex to vertex.
 
+use super::noise::{MIN_NOISE_SAMPLES, MIN_SAMPLE_CONFIDENCE, largest_trust, sample};
 use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
 use crate::heights::heightfield::Heightfield;
@@ -13,15 +14,9 @@ use crate::heights::heightfield::Heightfield;
 /// vertices.
 const HELD_OUT_CLASSES: usize = 3;
 
-/// Minimum number of held-out heights; with fewer none are held out.
-const MIN_HELD_OUT_SAMPLES: usize = 60;
-
 /// Confidence of the mean of the six neighbours that replaces a held-out height, as a share of the largest confidence:
 /// large enough that the solve converges fast, too small to change its surface.
 const MADE_UP: f64 = 0.01;
-
-/// Minimum confidence of a height that is held out, as a share of the largest: far above [`MADE_UP`].
-const MIN_HELD_OUT_CONFIDENCE: f64 = 0.1;
 
 /// Input without the heights that are held out, and these heights.
 #[derive(Debug, Clone)]
@@ -32,8 +27,8 @@ pub(crate) struct HeldOut {
 }
 
 impl HeldOut {
-    /// Holds out a third of the heights; `None` if fewer than [`MIN_HELD_OUT_SAMPLES`] vertices qualify. A vertex
-    /// qualifies if it is known, confident enough and unconstrained, and has six known neighbours.
+    /// Holds out a third of the heights; `None` if fewer than [`MIN_NOISE_SAMPLES`] vertices qualify. A vertex qualifies if
+    /// noise is measured from it and it has six known neighbours.
     pub(crate) fn from_input(input: &Input) -> Result<Option<Self>> {
         let lattice = *input.field.lattice();
         let mut heights = try_filled("held-out heights", lattice.len(), 0.0)?;
@@ -43,13 +38,13 @@ impl HeldOut {
             *value = input.trust(vertex);
         }
         let largest = confidence.iter().copied().fold(0.0, f64::max);
+        let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
         let mut samples = Vec::new();
         for row in 0..lattice.rows() {
             for col in (0..lattice.cols()).filter(|col| class_of(row, *col) == 0) {
                 let vertex = lattice.index(row, col);
                 let known = |v: usize| input.is_given(v) && heights[v].is_finite();
-                let trusted = confidence[vertex] >= MIN_HELD_OUT_CONFIDENCE * largest;
-                if !known(vertex) || !trusted || input.is_constrained(vertex) {
+                if sample(input, vertex, least).is_nan() {
                     continue;
                 }
                 let ring = lattice.neighbours(row, col).map(|n| {
@@ -64,7 +59,7 @@ impl HeldOut {
                 confidence[vertex] = MADE_UP * largest;
             }
         }
-        if samples.len() < MIN_HELD_OUT_SAMPLES {
+        if samples.len() < MIN_NOISE_SAMPLES {
             return Ok(None);
         }
         let mut input = input.clone();

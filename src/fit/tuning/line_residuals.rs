@@ -11,9 +11,6 @@ use crate::heights::heightfield::Heightfield;
 use crate::lattice::domain::Domain;
 use crate::math::statistics::median;
 
-/// Minimum number of vertices of a row or column that is levelled.
-const MIN_LINE_VERTICES: usize = 16;
-
 /// Returns an input without the medians of what a surface leaves along each row, and along each column, where the lines of its image
 /// are offset.
 ///
@@ -38,10 +35,7 @@ pub(crate) fn level_lines(input: &Input, domain: &Domain, surface: &Heightfield)
                 lines[line(vertex)].push(*residual);
             }
         }
-        let offset = |line: &mut Vec<f64>| match line.len() >= MIN_LINE_VERTICES {
-            true => median(line).unwrap_or(0.0),
-            false => 0.0,
-        };
+        let offset = |line: &mut Vec<f64>| median(line).unwrap_or(0.0);
         let offsets: Vec<f64> = lines.iter_mut().map(offset).collect();
         for vertex in (0..heights.len()).filter(|vertex| !input.is_constrained(*vertex)) {
             heights[vertex] -= offsets[line(vertex)];

@@ -8,8 +8,9 @@ use crate::heights::pixel_noise::quantisation_step;
 use crate::math::fork;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
-/// Minimum number of rings of six neighbours from which noise is estimated; with fewer there is no estimate.
-const MIN_NOISE_SAMPLES: usize = 50;
+/// Minimum number of rings of six neighbours from which noise is estimated, and of heights that are held out; with fewer there is
+/// no estimate.
+pub(super) const MIN_NOISE_SAMPLES: usize = 50;
 
 /// Minimum ratio of the noise estimated from large discs to that from rings of six neighbours at which noise counts as
 /// correlated. Bends of the shape beside white noise raise it to 1.8.
@@ -80,7 +81,7 @@ impl Noise {
             step: step.filter(|_| is_rounding),
         };
         if let Some(found) = correlated_noise(input)? {
-            let root = found.white_equivalent();
+            let root = found.white_equivalent;
             if found.is_anisotropic || root >= MIN_CORRELATED_RATIO * white {
                 noise.sigma = found.sigma;
                 noise.vertex_sigma = found.sigma;
@@ -108,22 +109,15 @@ fn correlated_noise(input: &Input) -> Result<Option<CorrelatedNoise>> {
     Ok(CorrelatedNoise::from_scales(&scales, &discs))
 }
 
-/// Number of rows whose rings of six neighbours are measured by one thread at a time.
-const RING_NOISE_PIECE_ROWS: usize = 32;
-
 /// Estimates the standard deviation of white noise from rings of six neighbours: the sum of a ring's heights with
 /// alternating signs is 0 for every quadratic. The median over all rings discards creases. `None` if there are fewer
 /// than [`MIN_NOISE_SAMPLES`] rings.
 fn ring_noise(input: &Input) -> Option<f64> {
     let lattice = input.field.lattice();
     let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
-    let pieces = lattice.rows().div_ceil(RING_NOISE_PIECE_ROWS);
-    let mut samples = vec![Vec::new(); pieces];
-    fork::for_each(&mut samples, |piece, samples| {
-        let first = piece * RING_NOISE_PIECE_ROWS;
-        let last = (first + RING_NOISE_PIECE_ROWS).min(lattice.rows());
-        let vertices = (first..last).flat_map(|row| (0..lattice.cols()).map(move |col| (row, col)));
-        for (row, col) in vertices {
+    let mut samples = vec![Vec::new(); lattice.rows()];
+    fork::for_each(&mut samples, |row, samples| {
+        for col in 0..lattice.cols() {
             if sample(input, lattice.index(row, col), least).is_nan() {
                 continue;
             }

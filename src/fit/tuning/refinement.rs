@@ -1,18 +1,19 @@
 //! Refinement of λ by what the surface of a solve leaves of the heights.
 
 use super::noise::Noise;
-use super::residual::Residual;
 
-/// Minimum square of the lost shape's part of the residual at which λ is raised, in squares of the noise.
-const MIN_SQUARED_LOSS: f64 = 1.0;
+/// Largest mean square of the residual, in squares of the noise, that noise explains: above it a part of the shape is lost.
+const MAX_SQUARED_RESIDUAL: f64 = 2.0;
 
 /// Largest residual, in units of the noise, that counts as such: an outlier, or the side of a step, says no more than that its vertex
 /// is lost (`benches/scenes.md`, Residuals).
 pub(crate) const MAX_RESIDUAL: f64 = 2.0;
 
-/// Range of the factors by which λ is raised at once: at least so much that a solve more is worth its cost, at most so much
-/// that a warm start is still of use.
-const LAMBDA_RAISE_FACTORS: [f64; 2] = [3.0, 10.0];
+/// Factor by which λ is raised at once: so much that a solve more is worth its cost, and no more than a warm start is of use for.
+const LAMBDA_RAISE_FACTOR: f64 = 3.0;
+
+/// Maximum number of solves by which λ is refined on the coarse lattice, and at full size.
+const MAX_SOLVES: usize = 5;
 
 /// Least distance to the heights, as a share of the tolerance that was asked for, at which no simpler surface is looked for.
 const MIN_TOLERANCE_SHARE: f64 = 0.86;
@@ -39,13 +40,8 @@ pub(crate) struct Refinement {
     aim: Aim,
     /// Spacing of the lattice, in those of the input's.
     spacings: f64,
-    /// Correlation that noise is expected to have in residuals at the lag at which they are compared.
-    correlation: f64,
-    max_solves: usize,
     /// Number of solves so far.
     pub solves: usize,
-    /// Size of the noise that the first solve shows.
-    level: Option<f64>,
     /// λ and risk of the best solve.
     best: Option<(f64, f64)>,
     /// λ and distance of the solve that is farthest from the heights within the tolerance, and of the nearest one beyond it.
@@ -54,21 +50,12 @@ pub(crate) struct Refinement {
 }
 
 impl Refinement {
-    /// Begins a refinement by at most `max_solves` on a lattice of spacing `spacing`, which is `spacings` times the input's.
-    pub(crate) fn new(aim: Aim, spacing: f64, spacings: f64, max_solves: usize) -> Self {
-        let correlation = match aim {
-            Aim::Noise(noise) if noise.is_correlated() => {
-                Residual::correlation_at_lag(spacing, noise.correlation_length)
-            }
-            _ => 0.0,
-        };
+    /// Begins a refinement on a lattice whose spacing is `spacings` times the input's.
+    pub(crate) fn new(aim: Aim, spacings: f64) -> Self {
         Refinement {
             aim,
             spacings,
-            correlation,
-            max_solves,
             solves: 0,
-            level: None,
             best: None,
             within: None,
             beyond: None,
@@ -87,38 +74,27 @@ impl Refinement {
         }
     }
 
-    /// Takes the residual of a solve, in [`Refinement::unit`], and returns λ of the next one.
-    pub(crate) fn next(&mut self, lambda: f64, residual: Residual) -> Next {
+    /// Takes the root mean square residual of a solve, in [`Refinement::unit`], and returns λ of the next one.
+    pub(crate) fn next(&mut self, lambda: f64, residual: f64) -> Next {
         self.solves += 1;
         match self.aim {
             Aim::Noise(_) => self.next_for_noise(lambda, residual),
-            Aim::Distance { is_exact, .. } => {
-                self.next_for_distance(is_exact, lambda, residual.rms)
-            }
+            Aim::Distance { is_exact, .. } => self.next_for_distance(is_exact, lambda, residual),
         }
     }
 
-    /// Raises λ where a part of the shape is lost, as long as that brings more of the shape than of the noise.
-    ///
-    /// The residual is noise, of which the surface has followed a part, and lost shape. Where residuals of most vertices are
-    /// smaller than the noise, it was followed; where those that hang together are larger than most, or residuals far apart
-    /// are alike, a shape was lost. The sum of both squares is the surface's error.
-    fn next_for_noise(&mut self, lambda: f64, residual: Residual) -> Next {
-        let alike = (residual.autocorrelation - self.correlation).max(0.0);
-        let noisy = (1.0 - alike).sqrt() * residual.bulk.min(residual.rms);
-        let level = *self.level.get_or_insert(noisy.min(1.0));
-        let lost = residual.rms.powi(2) - noisy.min(level).powi(2);
-        let risk = lost + level.powi(2) - noisy.min(level).powi(2);
+    /// Raises λ where a part of the shape is lost, as long as that brings the residual closer to the noise: a larger one is lost
+    /// shape, a smaller one noise that the surface has followed.
+    fn next_for_noise(&mut self, lambda: f64, residual: f64) -> Next {
+        let risk = (residual.powi(2) - 1.0).abs();
         if let Some((best, least)) = self.best
             && risk >= least
         {
             return Next::Keep(best);
         }
         self.best = Some((lambda, risk));
-        let [least, most] = LAMBDA_RAISE_FACTORS;
-        let is_lost = lost > MIN_SQUARED_LOSS * level.powi(2);
-        match is_lost && self.solves < self.max_solves {
-            true => Next::Solve(lambda * (residual.rms / level).powi(2).clamp(least, most)),
+        match residual.powi(2) > MAX_SQUARED_RESIDUAL && self.solves < MAX_SOLVES {
+            true => Next::Solve(LAMBDA_RAISE_FACTOR * lambda),
             false => Next::Keep(lambda),
         }
     }
@@ -136,7 +112,7 @@ impl Refinement {
         if is_within && (!is_exact || distance >= MIN_TOLERANCE_SHARE) {
             return Next::Keep(lambda);
         }
-        if self.solves + 1 >= self.max_solves {
+        if self.solves + 1 >= MAX_SOLVES {
             let (kept, _) = self
                 .within
                 .unwrap_or((2.0 * lambda * distance.powi(2), 1.0));

@@ -12,7 +12,7 @@ use super::closed_form::{Known, with_huber_defaults};
 use super::held_out::{HeldOut, advantage};
 use super::merge::merge;
 use super::refinement::{Aim, Next, Refinement};
-use super::residual::Residual;
+use super::residual::root_mean_square;
 use crate::error::Result;
 use crate::fit::component_solver::{ComponentSolver, PreparedInput, StartMode, Status};
 use crate::fit::input::Input;
@@ -34,9 +34,6 @@ const MIN_ADVANTAGE: f64 = 1.0;
 /// Minimum number of interior vertices of a coarse lattice (`benches/scenes.md`).
 const MIN_COARSE_VERTICES: usize = 400;
 
-/// Maximum number of solves by which λ is refined on the coarse lattice.
-const MAX_COARSE_SOLVES: usize = 5;
-
 /// Relative duality gap of coarse solves: their surfaces differ by more than it leaves open.
 const SEARCH_GAP: f64 = 0.05;
 
@@ -50,9 +47,8 @@ pub(crate) struct Search {
     solve: Box<ComponentSolver>,
     /// Penalty that is best so far.
     penalty: HuberOptions,
-    /// Number of times that the coarse lattice's spacing has to be doubled until noise is independent from vertex to vertex, so
-    /// that held-out heights are not predicted by it.
-    merges: usize,
+    /// Whether noise is independent from vertex to vertex of the coarse lattice, so that it predicts no held-out heights.
+    is_independent: bool,
     /// Whether penalties were compared.
     is_compared: bool,
     solves: usize,
@@ -94,7 +90,7 @@ impl Search {
         known: Known,
         aim: Aim,
     ) -> Result<Option<Self>> {
-        let (coarse, merges) = coarse_input(input)?;
+        let coarse = coarse_input(input)?;
         if interior_len(&coarse) == 0 {
             return Ok(None);
         }
@@ -104,8 +100,7 @@ impl Search {
             ..known
         };
         let spacings = coarse.field.lattice().spacing() / input.field.lattice().spacing();
-        let spacing = coarse.field.lattice().spacing();
-        let refinement = Refinement::new(aim, spacing, spacings, MAX_COARSE_SOLVES);
+        let refinement = Refinement::new(aim, spacings);
         let penalty = match aim {
             Aim::Noise(_) => HuberOptions::ANY,
             Aim::Distance { .. } => HuberOptions::SMOOTH,
@@ -120,9 +115,9 @@ impl Search {
             },
             solve: Box::new(solve),
             penalty,
-            merges: known
+            is_independent: known
                 .noise
-                .map_or(0, |noise| noise.merged.saturating_sub(merges)),
+                .is_some_and(|noise| spacings.log2() >= noise.merged as f64),
             is_compared: false,
             solves: 0,
             raises: 0,
@@ -157,7 +152,7 @@ impl Search {
             Stage::Fidelity { input, refinement } => {
                 let lambda = self.first.lambda_or_default().value();
                 let (domain, field) = (self.solve.domain(), surface.heightfield());
-                let residual = Residual::of(input, domain, field, refinement.unit())?;
+                let residual = root_mean_square(input, domain, field, refinement.unit())?;
                 let next = refinement.next(lambda, residual);
                 match next {
                     Next::Solve(next) => {
@@ -172,7 +167,7 @@ impl Search {
                         self.raises -= usize::from(next < lambda && self.raises > 0);
                         self.first = self.first.lambda(next);
                         let coarse = input.clone();
-                        self.start_comparison(coarse)
+                        self.start_comparison(&coarse)
                     }
                 }
             }
@@ -192,19 +187,12 @@ impl Search {
         }
     }
 
-    /// Starts the comparison of penalties on the first lattice, from the coarse one on, whose noise is independent; returns
-    /// whether there is one with enough vertices.
-    fn start_comparison(&mut self, mut coarse: Input) -> Result<bool> {
-        if self.known.noise.is_none() || self.first.energy_or_default() != Energy::Huber {
+    /// Starts the comparison of penalties on the coarse lattice if noise is independent there; returns whether it does.
+    fn start_comparison(&mut self, coarse: &Input) -> Result<bool> {
+        if !self.is_independent || self.first.energy_or_default() != Energy::Huber {
             return Ok(false);
         }
-        for _ in 0..self.merges {
-            coarse = merge(&coarse)?;
-            if interior_len(&coarse) < MIN_COARSE_VERTICES {
-                return Ok(false);
-            }
-        }
-        let Some(held_out) = HeldOut::from_input(&coarse)? else {
+        let Some(held_out) = HeldOut::from_input(coarse)? else {
             return Ok(false);
         };
         let comparison = Comparison {
@@ -260,16 +248,15 @@ fn interior_len(input: &Input) -> usize {
     input.domain().map_or(0, |domain| domain.interior_len())
 }
 
-/// Averages an input to the coarsest lattice with [`MIN_COARSE_VERTICES`] interior vertices, or keeps it where it has fewer, and
-/// counts how often its spacing was doubled.
-fn coarse_input(input: &Input) -> Result<(Input, usize)> {
-    let (mut coarse, mut merges) = (input.clone(), 0);
+/// Averages an input to the coarsest lattice with [`MIN_COARSE_VERTICES`] interior vertices, or keeps it where it has fewer.
+fn coarse_input(input: &Input) -> Result<Input> {
+    let mut coarse = input.clone();
     loop {
         let coarser = merge(&coarse)?;
         if interior_len(&coarser) < MIN_COARSE_VERTICES {
-            return Ok((coarse, merges));
+            return Ok(coarse);
         }
-        (coarse, merges) = (coarser, merges + 1);
+        coarse = coarser;
     }
 }
 

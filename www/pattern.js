@@ -22,10 +22,7 @@ export function longerSide({ input: { width, height, pixelSize } }) {
   return Math.max(width, height) * pixelSize;
 }
 
-/**
- * The suggested longer side of a finished surface, in millimetres.
- * @param {Result} result
- */
+/** The suggested longer side of a finished surface, in millimetres. @param {Result} result */
 export function suggestedSideOf(result) {
   return suggestedSide(longerSide(result), result.input.unit);
 }
@@ -127,7 +124,9 @@ export function sheetFigures({ width, height, summary: { cutLength, mountainLeng
  */
 export async function drawingImage(api, drawing) {
   const image = new Image();
-  const address = URL.createObjectURL(new Blob([await api.writeSvg(drawing)], { type: 'image/svg+xml' }));
+  // On paper lines are a fifth of a millimetre wide: too thin to be seen where a large drawing is shown small.
+  const svg = new TextDecoder().decode(await api.writeSvg(drawing)).replace(/stroke-width="[^"]*"/g, 'stroke-width="1"').replaceAll('<path ', '<path vector-effect="non-scaling-stroke" ');
+  const address = URL.createObjectURL(new Blob([svg], { type: 'image/svg+xml' }));
   try {
     image.src = address;
     await image.decode();

@@ -18,17 +18,15 @@ function optionsOf({ input, settings }) {
   };
 }
 
-/**
- * The command that solves the same.
- * @param {Result} result
- * @returns {string | null} null where the command cannot read the input: an example, a mesh, depths
- */
+/** The command that solves the same; null where it cannot read the input: an example, a mesh, depths. @param {Result} result @returns {string | null} */
 export function asCommand(result) {
   const { input } = result;
-  const { file, name, stored, array } = input;
+  const { file, name, stored, array, assumptions = [] } = input;
   if (file === undefined || !isUnchanged(input)) return null;
   const { pixelSize, heightScale, noData } = stored ?? {};
   const options = { array: array?.name, pixelSize, heightScale, noData, ...optionsOf(result) };
+  // The command assumes the same. Given, a size of pixels would also keep it from resampling those that are not square.
+  for (const { option } of assumptions) if (option === 'pixelSize' || option === 'heightScale') options[option] = undefined;
   const flags = Object.entries(options).filter(([, given]) => given !== undefined).map(([option, given]) =>
     `--${option.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`)} ${quoted(String(given))}`);
   return ['npx developable fit', quotedPath(file), '-o', quotedPath(`${name}-developable.obj`), ...flags].join(' ');
@@ -44,11 +42,7 @@ function quotedPath(path) {
   return quoted(path.startsWith('-') ? `./${path}` : path);
 }
 
-/**
- * Code for the package that solves the same.
- * @param {Result} result
- * @returns {string | null} null where code needs more than a file or an example: a mesh or depths
- */
+/** Code for the package that solves the same; null where it needs more than a file or an example: a mesh or depths. @param {Result} result @returns {string | null} */
 export function asCode(result) {
   const { input } = result;
   const { name, file, example, stored, array } = input;

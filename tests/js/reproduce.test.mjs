@@ -62,6 +62,15 @@ test('the command names the file, how it was read and the options, and runs', as
   assert.equal(status, 0, stderr);
 });
 
+test('what the command assumes of a file by itself is not given to it', async () => {
+  const squarePixels = { code: 'squarePixels', words: 'pixels of 0.25 × 0.5 are resampled to squares of 0.5', option: 'pixelSize' };
+  const command = (/** @type {Partial<Input>} */ changed) => asCommand(resultOf({ ...opened, ...changed })) ?? '';
+  // Given, it would keep the command from resampling: its surface would be twice as wide.
+  assert.doesNotMatch(command({ assumptions: [squarePixels] }), /--pixel-size/);
+  assert.match(command({ assumptions: [squarePixels] }), /--height-scale -2/);
+  assert.match(command({ assumptions: [{ ...squarePixels, option: 'heightScale' }] }), /--pixel-size 0\.5 (?!--height-scale)/);
+});
+
 test('a file whose name begins with a dash is no flag', async () => {
   const args = await argumentsOf(asCommand(resultOf(dashed)));
   assert.deepEqual(args.slice(args.indexOf('--no-data'), args.indexOf('--no-data') + 2), ['--no-data', 'none']);

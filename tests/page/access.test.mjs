@@ -1,7 +1,7 @@
 /** By keyboard, on a phone, and in the dark. */
 import assert from 'node:assert/strict';
 import { grid, npy } from './support/files.mjs';
-import { choose, doorTest, enterPages, look, open, pageTest, painted, runBy, settled } from './support/page.mjs';
+import { choose, doorTest, drop, enterPages, look, open, pageTest, painted, runBy, settled } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -144,4 +144,8 @@ doorTest('a file with a long name can be saved on a phone', async (page) => {
   assert.ok(dialog && save && save.x + save.width <= dialog.x + dialog.width, `${save?.x} + ${save?.width}`);
   const [name, links] = await Promise.all(['.masthead h1', '.masthead nav'].map((one) => page.locator(one).boundingBox()));
   assert.ok(name && links && links.y < name.y, 'one line above the picture');
+  await page.keyboard.press('Escape');
+  await drop(page, `${'long_words_joined_by_lines_'.repeat(4)}.obj`, Buffer.from('v 0 0 0\nv 1 0\nf 1 2 9\n'));
+  const close = await page.getByRole('button', { name: 'Dismiss this message' }).boundingBox();
+  assert.ok(close && close.x + close.width <= 390, 'what is said about it can be dismissed');
 }, { size: { width: 390, height: 844 } });

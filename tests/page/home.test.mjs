@@ -111,6 +111,8 @@ pageTest('a picture that is chosen as a page is one, though it is grey', async (
   const buffer = Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), chunk('IHDR', head), chunk('IDAT', deflateSync(rows)), chunk('IEND', Buffer.alloc(0))]);
   await dialog.setFiles({ name: 'letter.png', mimeType: 'image/png', buffer });
   await page.locator('#page-caption', { hasText: 'letter' }).waitFor();
+  await page.locator('#page-side[data-state="unfound"]').waitFor();
+  assert.equal(await page.locator('#notice').isVisible(), false, 'nothing was guessed');
 }, { start: '' });
 
 pageTest('few stops of the Tab key lead through a scan before more is asked for', async (page) => {

@@ -186,7 +186,7 @@ doorTest('photos that are opened together become one PDF, each with its own outl
   await numbers.nth(2).click();
   await page.locator('#page-side[data-state="unfound"]').waitFor();
   // Removed, brought back, and moved to the front.
-  await page.getByRole('button', { name: 'Remove this photo' }).click();
+  await page.getByRole('button', { name: 'Remove photo' }).click();
   await page.locator('#page-caption', { hasText: 'two' }).waitFor();
   assert.equal(await numbers.count(), 2);
   await page.getByRole('alert').getByRole('button', { name: 'Undo' }).click();

@@ -73,12 +73,24 @@ doorTest('a fold that is clicked in the drawing is cut', async (page) => {
   const [pair] = parsePairs(await toCut.inputValue()) ?? [];
   assert.deepEqual([pair, await toJoin.inputValue()], [edgeAt(drawing, [x, y])?.pair, '']);
   await page.locator('#save-now:enabled').waitFor();
+  // Of a drawing of 5 m, too, one sees the lines.
+  await workBy(page, '.preview[aria-busy="true"]', () => page.getByLabel('Longer side when finished').fill('2000'));
+  const inked = await image.evaluate((/** @type {HTMLImageElement} */ picture) => {
+    const canvas = Object.assign(document.createElement('canvas'), { width: picture.clientWidth, height: picture.clientHeight });
+    const context = canvas.getContext('2d');
+    context?.drawImage(picture, 0, 0, canvas.width, canvas.height);
+    const data = context?.getImageData(0, 0, canvas.width, canvas.height).data ?? [];
+    return Array.from({ length: canvas.width * canvas.height }, (_, i) => data[4 * i + 3] > 128 && data[4 * i] + data[4 * i + 1] + data[4 * i + 2] < 600).filter(Boolean).length;
+  });
+  assert.ok(inked > shown.width, `${inked} pixels of lines`);
   await page.locator('.edges summary').click();
   await toCut.fill('1-');
   await toCut.press('Tab');
   assert.equal(await toCut.getAttribute('aria-invalid'), 'true');
-  // What was cut before is not saved in its place.
+  // What was cut before is not saved in its place, and what is wrong stands at the field alone.
   await page.locator('#save-now:disabled').waitFor();
+  assert.equal(await page.locator('#save-dialog footer').innerText(), 'Save');
+  assert.equal(await page.locator('#save-title').innerText(), 'Cut-out sheets');
 });
 
 doorTest('a solid of sheet metal is cut as the blank that it is bent from', async (page) => {

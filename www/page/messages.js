@@ -27,7 +27,7 @@ export const BOOK_WORDS = {
   page: (n, name, problem) => `Photo ${n}, ${name}${problem ? ` (not in the PDF: ${problem})` : ''}`,
   earlier: '‹ Earlier',
   later: 'Later ›',
-  remove: 'Remove this photo',
+  remove: 'Remove photo',
   undo: 'Undo',
   /** @param {string} name */
   removed: (name) => `“${name}” is removed.`,
@@ -38,7 +38,7 @@ export const BOOK_WORDS = {
   /** @param {string} problems */
   without: (problems) => `Without ${problems}.`,
   /** @param {number} n */
-  pdf: (n) => `all ${count(n)} photos, a page each`,
+  pdf: (n) => `${n === 2 ? 'both' : `all ${count(n)}`} photos, a page each`,
   /** @param {number} n @param {number} all */
   writing: (n, all) => `Flattening photo ${n} of ${all}…`,
 };

@@ -25,8 +25,9 @@ export function filesPanel(session, mode, source, page) {
    * Opens photos of pages.
    * @param {readonly File[]} files
    * @param {string} [leftOut] words about files that were left out
+   * @param {boolean} [areChosen] whether they were opened as photos of pages, so that nothing is to be said about that
    */
-  const openPhotos = async (files, leftOut = '') => {
+  const openPhotos = async (files, leftOut = '', areChosen = false) => {
     const before = mode.now;
     const isOtherMode = before !== 'photo';
     mode.show('photo');
@@ -34,8 +35,9 @@ export function filesPanel(session, mode, source, page) {
     const pageNote = await page.openAll(files, isOtherMode);
     if (pageNote === null && !page.hasPhoto && mode.now === 'photo') mode.show(before);
     if (pageNote === null) return;
-    const taken = isOtherMode ? FILE_WORDS.takenForPages(files.length) : '';
-    note([taken, pageNote, leftOut].filter(Boolean).join(' '), isOtherMode && files.length === 1 ? {
+    const isGuess = isOtherMode && !areChosen;
+    const taken = isGuess ? FILE_WORDS.takenForPages(files.length) : '';
+    note([taken, pageNote, leftOut].filter(Boolean).join(' '), isGuess && files.length === 1 ? {
       label: FILE_WORDS.heightsInstead,
       act: async () => {
         if (await isInColour(files[0])) return note(FILE_WORDS.inColour(files[0].name));
@@ -53,7 +55,7 @@ export function filesPanel(session, mode, source, page) {
     const { to, files: taken, left } = await routeFiles(files, arePages);
     if (to === 'none') return showNotice(FILE_WORDS.unread(files[0].name, unreadableKindInWords(files[0])));
     const leftOut = left.length > 0 ? FILE_WORDS.leftOut(namesOfLeft(left), to === 'heights' && kindByName(taken[0]) !== 'mesh') : '';
-    if (to === 'photos') return openPhotos(taken, leftOut);
+    if (to === 'photos') return openPhotos(taken, leftOut, arePages);
     const own = ++openCount;
     if (mode.now !== 'heights') {
       earlier = mode.now;
@@ -67,7 +69,7 @@ export function filesPanel(session, mode, source, page) {
     // The start of a run hides the notice, so it is shown afterwards.
     const openable = left.filter((file) => kindByName(file) !== 'other');
     if (openable.length > 0) note(leftOut, { label: FILE_WORDS.openInstead(openable), act: () => void open(openable) });
-    else if (taken.length === 1 && kindByName(taken[0]) === 'picture') note([FILE_WORDS.takenForHeights, leftOut].filter(Boolean).join(' '), { label: FILE_WORDS.openAsPage, act: () => void openPhotos(taken) });
+    else if (taken.length === 1 && kindByName(taken[0]) === 'picture') note([FILE_WORDS.takenForHeights, leftOut].filter(Boolean).join(' '), { label: FILE_WORDS.openAsPage, act: () => void openPhotos(taken, '', true) });
     else note(leftOut);
   };
   return {

@@ -176,7 +176,7 @@ export function pageResultPanel(api, session, book, onWritten) {
         { value: 'jpg', name: 'JPEG', words: FORMAT_WORDS.jpg, type: 'image/jpeg', write: writeImage('jpeg') },
         { value: 'png', name: 'PNG', words: FORMAT_WORDS.png, type: 'image/png', write: writeImage('png') },
       ],
-      extra: [make('label', 'field', SAVE_WORDS.paper(similar !== null && !measured ? SAVE_WORDS.papers[similar] : ''), paper)],
+      extra: [make('label', 'field for-pdf', SAVE_WORDS.paper(similar !== null && !measured ? SAVE_WORDS.papers[similar] : ''), paper)],
     });
     paper.addEventListener('change', () => offer.renew());
   });

@@ -24,39 +24,31 @@ export function reportPanel(session, analyses) {
   const on = (id, act) => element(id, HTMLButtonElement).addEventListener('click', () => {
     if (session.result) act(session.result);
   });
-  on('report-save', async (result) => {
+  /** @param {string} ending @param {string} type @param {(report: object) => string} textOf */
+  const onSave = (ending, type, textOf) => async (/** @type {Result} */ result) => {
     try {
-      download(`${JSON.stringify(await reportFile(analyses, result, moments), null, 2)}\n`, 'application/json', `${result.input.name}-report.json`);
+      download(textOf(await reportFile(analyses, result, moments)), type, `${result.input.name}-report.${ending}`);
     } catch (error) {
       showError('The report could not be saved', error);
     }
-  });
-  on('report-csv', (result) => {
-    const rows = groupsOf(result).flatMap(([title, all]) => all.map(([name, value]) => [title, name, value]));
-    download([['group', 'quantity', 'value'], ...rows].map((cells) => `${cells.map(csvCell).join(',')}\r\n`).join(''), 'text/csv', `${result.input.name}-report.csv`);
-  });
-  const offers = [
-    copyButton('copy-command', REPRODUCE_WORDS.noCommand),
-    copyButton('copy-code', REPRODUCE_WORDS.noCode),
-  ];
+  };
+  on('report-save', onSave('json', 'application/json', (report) => `${JSON.stringify(report, null, 2)}\n`));
+  on('report-csv', onSave('csv', 'text/csv', (report) => [['quantity', 'value'], ...figuresOf(report)].map((cells) => `${cells.map(csvCell).join(',')}\r\n`).join('')));
+  const offers = [copyButton('copy-command', REPRODUCE_WORDS.noCommand), copyButton('copy-code', REPRODUCE_WORDS.noCode)];
+  /** @param {boolean} isThere */
+  const showReport = (isThere) => {
+    table.hidden = acts.hidden = !isThere;
+    empty.hidden = isThere;
+  };
   session.on('result', (result) => {
     table.replaceChildren(...groupsOf(result).map(rowGroup));
     [asCommand, asCode].forEach((textOf, i) => offers[i](textOf(result)));
-    table.hidden = acts.hidden = false;
-    empty.hidden = true;
+    showReport(true);
   });
-  session.on('cleared', () => {
-    table.hidden = acts.hidden = true;
-    empty.hidden = false;
-  });
+  session.on('cleared', () => showReport(false));
 }
 
-/**
- * A button that copies a text.
- * @param {string} id
- * @param {string} words why there may be no text
- * @returns {(text: string | null) => void} offers a text, or none
- */
+/** A button that copies a text. @param {string} id @param {string} words why there may be no text @returns {(text: string | null) => void} offers a text, or none */
 function copyButton(id, words) {
   const button = element(id, HTMLButtonElement);
   const label = button.textContent;
@@ -80,6 +72,14 @@ function copyButton(id, words) {
 
 /** @param {string} text */
 const csvCell = (text) => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+
+/** The figures of a report by their paths, such as `huber.creases`, without its lists. @param {object} report @returns {[string, string][]} */
+function figuresOf(report) {
+  return Object.entries(report).flatMap(([name, value]) => {
+    if (Array.isArray(value) || value === undefined || value === null) return [];
+    return typeof value === 'object' ? figuresOf(value).map(([path, figure]) => /** @type {[string, string]} */ ([`${name}.${path}`, figure])) : [[name, String(value)]];
+  });
+}
 
 /** All that the page shows about a result. @param {Analyses} analyses @param {Result} result @param {readonly Moment[]} moments */
 async function reportFile(analyses, result, moments) {

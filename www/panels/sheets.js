@@ -141,11 +141,14 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
 
   const draw = async () => {
     showFields();
-    const fault = fields.check();
-    if (fault) {
+    if (fields.check()) {
       stop();
       waiting.end();
-      setMissing(fault.replace(/\.$/, ''));
+      // The fault stands at its field.
+      setMissing('');
+      element('save-title', HTMLElement).textContent = SHEET_WORDS.title;
+      status.textContent = '';
+      pageWarning.hidden = true;
       return offer.renew();
     }
     lastSizes.set(stem, { side: side(), unit: fields.text('sheet-unit') });

@@ -7,11 +7,8 @@ use crate::math::index::NO_INDEX;
 use crate::math::lanes;
 
 /// Minimum side, in pixels, of the square cells of border pixels from which the map is extrapolated by one common
-/// quadratic.
+/// quadratic, which is fitted to a window four times as wide.
 const MIN_CELL_PIXELS: usize = 8;
-
-/// Minimum half side, in pixels, of the window to which a quadratic is fitted for extrapolating the map.
-const MIN_WINDOW_PIXELS: usize = 16;
 
 impl WarpMap {
     /// Adds `margin` pixels on each side of the flat image and extrapolates the sheet to all pixels within that
@@ -45,7 +42,7 @@ impl WarpMap {
             let [col, row] = edge.map(|v| v as usize / cell);
             let fit = fits[row * across + col].get_or_insert_with(|| {
                 let middle = [col, row].map(|k| (k * cell) as f64 + 0.5 * cell as f64);
-                LocalQuadratic::new(&map, middle, (2 * margin).max(MIN_WINDOW_PIXELS) as f64)
+                LocalQuadratic::new(&map, middle, 2.0 * margin.max(MIN_CELL_PIXELS) as f64)
             });
             let Some(fit) = fit else { continue };
             let (there, at_edge) = (fit.at(here), fit.at(edge));

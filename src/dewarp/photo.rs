@@ -14,10 +14,6 @@ pub struct Photo<'a> {
 /// is much finer.
 const MAX_SAMPLES_PER_PIXEL_SIDE: f32 = 8.0;
 
-/// Square of the side length, in pixels of the photo, below which a pixel of the flat image takes a single sample along
-/// that side.
-const MAX_SINGLE_SAMPLE_SQUARED_SIDE: f32 = 2.25;
-
 impl<'a> Photo<'a> {
     /// Makes a photo from its bytes, four for each pixel (red, green, blue, alpha), row by row.
     ///
@@ -84,10 +80,9 @@ impl<'a> Photo<'a> {
     pub(super) fn sample(&self, [x, y]: [f32; 2], [across, down]: [[f32; 2]; 2]) -> [u8; 4] {
         let samples = |[dx, dy]: [f32; 2]| {
             let square = dx * dx + dy * dy;
-            match square < MAX_SINGLE_SAMPLE_SQUARED_SIDE {
-                true => 1.0,
-                false => square.sqrt().round().min(MAX_SAMPLES_PER_PIXEL_SIDE),
-            }
+            (square.sqrt() + 0.5)
+                .floor()
+                .clamp(1.0, MAX_SAMPLES_PER_PIXEL_SIDE)
         };
         let [m, n] = [samples(across), samples(down)];
         if m * n == 1.0 {

@@ -2,9 +2,10 @@
 
 use crate::unroll::UnrollReport;
 
-/// Maximum root mean square strain between a surface and its view from straight above for the verdict `Flat`: 0.2 % is
-/// half a millimetre on a page of A4.
-const MAX_FLAT_STRAIN: f64 = 0.002;
+/// Maximum root mean square strain between a surface and its view from straight above, and maximum displacement, as
+/// [`WarpMap::displacement`](super::WarpMap::displacement) measures it, for the verdict `Flat`: 0.2 % is half a millimetre on a
+/// page of A4.
+pub(super) const MAX_FLAT_STRAIN: f64 = 0.002;
 
 /// Maximum root mean square strain of the sheet for the verdict `Unrolled`: lengths are wrong by 1 %, 2 mm on a page of
 /// A4.

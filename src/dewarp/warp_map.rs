@@ -7,7 +7,7 @@ use super::options::DewarpOptions;
 use super::photo::Photo;
 use super::raster::{Canvas, rasterise};
 use super::registration::{PhotoProjection, Registration};
-use super::verdict::Verdict;
+use super::verdict::{MAX_FLAT_STRAIN, Verdict};
 use crate::error::{Error, Result, checked_cells, positive, try_filled};
 use crate::unroll::{UnrollReport, Unrolling};
 
@@ -33,10 +33,6 @@ const MAX_OVERLAP_SHARE: f64 = 0.003;
 /// Maximum share of a page between four corners that may be lost where the flat image is not called doubtful. Of simulated
 /// phone captures with corners on the page no more than 4 % were lost, see `benches/verdicts.md`.
 const MAX_PAGE_LOSS: f64 = 0.05;
-
-/// Maximum displacement, as [`WarpMap::displacement`] measures it, for the verdict `Flat`: 0.2 % is half a millimetre
-/// on a page of A4.
-const MAX_FLAT_DISPLACEMENT: f64 = 0.002;
 
 /// Place in the photo of a pixel of the flat image that shows no sheet: not a number.
 const NO_PLACE: [f32; 2] = [f32::NAN; 2];
@@ -222,7 +218,7 @@ impl WarpMap {
     fn verdict_on_known(&self, sheet: &UnrollReport) -> Verdict {
         if Verdict::has_large_strain(sheet) || self.overlap > MAX_OVERLAP_SHARE {
             Verdict::Stretched
-        } else if self.displacement() < MAX_FLAT_DISPLACEMENT {
+        } else if self.displacement() < MAX_FLAT_STRAIN {
             Verdict::Flat
         } else {
             Verdict::Unrolled

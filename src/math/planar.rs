@@ -38,7 +38,7 @@ impl Planar for Point2 {
 }
 
 /// Returns the vector from one point to another.
-fn difference(from: impl Planar, to: impl Planar) -> [f64; 2] {
+pub(crate) fn difference(from: impl Planar, to: impl Planar) -> [f64; 2] {
     let ([a, b], [c, d]) = (from.xy(), to.xy());
     [c - a, d - b]
 }
@@ -129,6 +129,18 @@ fn nearest_parameter(u: [f64; 2], v: [f64; 2]) -> f64 {
 /// Length of a polyline: the sum of the distances between consecutive points.
 pub(crate) fn polyline_length<P: Planar>(points: &[P]) -> f64 {
     points.windows(2).map(|p| distance(p[0], p[1])).sum()
+}
+
+/// Straight line of least squared distances from points: their mean, and the unit vector in which they extend most.
+pub(crate) fn principal_line(points: &[[f64; 2]]) -> ([f64; 2], [f64; 2]) {
+    let mean = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / points.len() as f64);
+    let (mut across, mut along) = (0.0, 0.0);
+    for p in points {
+        let [x, y] = difference(mean, *p);
+        (across, along) = (across + 2.0 * x * y, along + x * x - y * y);
+    }
+    let (sin, cos) = (0.5 * across.atan2(along)).sin_cos();
+    (mean, [cos, sin])
 }
 
 /// Iterates over the edges of a closed polygon whose last corner is not its first one again.

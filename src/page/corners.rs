@@ -1,13 +1,16 @@
 //! Checks of a page's traced edges: their direction and order by the corners at their ends, and whether they cross.
 
-use super::traced_line::{TracedLine, TracedPage, distance};
+use super::traced_line::{TracedLine, TracedPage};
 use crate::error::{Error, Result};
+use crate::math::planar::{
+    distance, distance_to_segment, orientation, polygon_contains, segments_intersect,
+};
 
-/// Maximum number of segments to which a traced edge is thinned before it is checked for crossings with the opposite
-/// edge.
+/// Maximum number of segments to which a traced edge is thinned before it is compared with others.
 const MAX_CROSSING_SEGMENTS: usize = 1000;
 
-/// Maximum distance between the ends of two edges that share a corner, as a share of the edge's chord.
+/// Maximum distance between the ends of two edges that share a corner, and of a line of text from its page, as a share of the
+/// edge's chord: traces are drawn by hand.
 const MAX_CORNER_GAP_SHARE: f64 = 0.05;
 
 /// Orients both bent edges of a page alike, so that the corners lie clockwise in the photo, and checks that they can
@@ -18,11 +21,7 @@ const MAX_CORNER_GAP_SHARE: f64 = 0.05;
 pub(super) fn arrange([first, second]: &mut [TracedLine; 2]) -> Result<()> {
     let turns = |first: &TracedLine, second: &TracedLine| {
         let ([a, b], [d, c]) = (first.ends(), second.ends());
-        let corners = [a, b, c, d];
-        [0, 1, 2, 3].map(|i| {
-            let [p, q, r] = [0, 1, 2].map(|k| corners[(i + k) % 4]);
-            (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0])
-        })
+        [[a, b, c], [b, c, d], [c, d, a], [d, a, b]].map(|[p, q, r]| orientation(p, q, r))
     };
     let convex =
         |turns: &[f64; 4]| turns.iter().all(|t| *t > 0.0) || turns.iter().all(|t| *t < 0.0);
@@ -74,40 +73,29 @@ pub(super) fn arrange([first, second]: &mut [TracedLine; 2]) -> Result<()> {
     check_no_crossing(first, second)
 }
 
+/// At most about as many points of a traced edge as crossings and places beside it are looked for with, its ends among them.
+fn thinned(line: &TracedLine) -> Vec<[f64; 2]> {
+    let step = line.points.len().div_ceil(MAX_CROSSING_SEGMENTS);
+    let last = line.ends()[1];
+    (line.points.iter().copied().step_by(step))
+        .chain([last])
+        .collect()
+}
+
 /// Returns an error if the two bent edges of a page cross each other in the photo.
 fn check_no_crossing(first: &TracedLine, second: &TracedLine) -> Result<()> {
-    let thin = |line: &TracedLine| -> Vec<[f64; 2]> {
-        let step = line.points.len().div_ceil(MAX_CROSSING_SEGMENTS);
-        let mut thin: Vec<_> = line.points.iter().copied().step_by(step).collect();
-        thin.push(line.points[line.points.len() - 1]);
-        thin
+    let (one, other) = (thinned(first), thinned(second));
+    let crossing = (one.windows(2))
+        .find(|s| (other.windows(2)).any(|t| segments_intersect([s[0], s[1]], [t[0], t[1]])));
+    let Some([[x, y], ..]) = crossing else {
+        return Ok(());
     };
-    let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
-        (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
-    };
-    let (one, other) = (thin(first), thin(second));
-    for s in one.windows(2) {
-        for t in other.windows(2) {
-            let apart = |k: usize| {
-                s[0][k].max(s[1][k]) < t[0][k].min(t[1][k])
-                    || t[0][k].max(t[1][k]) < s[0][k].min(s[1][k])
-            };
-            if apart(0) || apart(1) {
-                continue;
-            }
-            if side(s[0], s[1], t[0]) * side(s[0], s[1], t[1]) <= 0.0
-                && side(t[0], t[1], s[0]) * side(t[0], t[1], s[1]) <= 0.0
-            {
-                return Err(Error::Edges {
-                    reason: format!(
-                        "the {} and {} edges cross at about ({:.0}, {:.0}); a page's edges do not",
-                        first.name, second.name, s[0][0], s[0][1]
-                    ),
-                });
-            }
-        }
-    }
-    Ok(())
+    Err(Error::Edges {
+        reason: format!(
+            "the {} and {} edges cross at about ({x:.0}, {y:.0}); a page's edges do not",
+            first.name, second.name
+        ),
+    })
 }
 
 /// Orders the two pages of a spread, and checks that the second page's edges begin at the gutter, where the first
@@ -170,9 +158,6 @@ pub(super) fn check_sides(
     Ok(())
 }
 
-/// Maximum distance of a traced line of text outside of its page's outline, as a share of the page's bent edge.
-const MAX_OUTSIDE_SHARE: f64 = 0.03;
-
 /// Checks that all points of a traced line of text lie between the two bent edges of its page. `number` is the line's
 /// number for the error message.
 ///
@@ -183,31 +168,13 @@ pub(super) fn check_on_page(
     points: &[[f64; 2]],
     number: usize,
 ) -> Result<()> {
-    let thin = |line: &TracedLine| -> Vec<[f64; 2]> {
-        let step = line.points.len().div_ceil(200);
-        let mut thin: Vec<_> = line.points.iter().copied().step_by(step).collect();
-        thin.push(line.points[line.points.len() - 1]);
-        thin
-    };
-    let mut outline = thin(first);
-    outline.extend(thin(second).into_iter().rev());
-    let slack = MAX_OUTSIDE_SHARE * first.chord().max(second.chord());
+    let mut outline = thinned(first);
+    outline.extend(thinned(second).into_iter().rev());
+    let slack = MAX_CORNER_GAP_SHARE * first.chord().max(second.chord());
     let sides = || (outline.iter().copied()).zip(outline.iter().cycle().skip(1).copied());
-    for [x, y] in points {
-        let crossed = sides()
-            .filter(|(p, q)| {
-                (p[1] > *y) != (q[1] > *y) && *x < p[0] + (y - p[1]) / (q[1] - p[1]) * (q[0] - p[0])
-            })
-            .count();
-        let near = || {
-            sides().any(|(p, q)| {
-                let (way, off) = ([q[0] - p[0], q[1] - p[1]], [x - p[0], y - p[1]]);
-                let squared = (way[0] * way[0] + way[1] * way[1]).max(1e-12);
-                let t = ((way[0] * off[0] + way[1] * off[1]) / squared).clamp(0.0, 1.0);
-                (off[0] - t * way[0]).hypot(off[1] - t * way[1]) < slack
-            })
-        };
-        if crossed % 2 == 0 && !near() {
+    let is_beside = |at| sides().any(|(p, q)| distance_to_segment(at, [p, q]) < slack);
+    for at @ [x, y] in points {
+        if !polygon_contains(&outline, *at) && !is_beside(*at) {
             return Err(Error::Edges {
                 reason: format!(
                     "line {number} of the text (the first is line 0) has a point at ({x:.0}, \

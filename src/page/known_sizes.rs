@@ -4,7 +4,7 @@ use super::options::{FocalLength, Format, PageOptions};
 use crate::error::{Error, Result, positive};
 use crate::scene::camera::focal_length_of;
 
-/// Diagonal of 35 mm film (36 by 24 mm), in millimetres.
+/// Diagonal of the format of 35 mm film (36 by 24 mm), in millimetres.
 const FILM_DIAGONAL_MM: f64 = 43.266_615;
 
 /// Minimum focal length that is accepted, as a multiple of the photo's longer side.

@@ -10,14 +10,11 @@ use crate::math::lanes;
 /// Maximum error of the places between the nodes, as a share of the photo's longer side: 0.04 pixels of 12 megapixels.
 const MAX_INTERPOLATION_ERROR: f64 = 1e-5;
 
-/// Number of cells along each side of the coarsest grid that is tried.
+/// Number of cells along each side of the coarsest grid that is tried, between whose lines the places' error is measured.
 const COARSEST_CELLS: usize = 16;
 
 /// Maximum number of cells along a side.
 const MAX_CELLS_PER_SIDE: usize = 512;
-
-/// Number of lines across which the places' error between the nodes is measured.
-const MEASURED_LINES: usize = 16;
 
 /// Warp map of a flat page by shares: places in the photo, in shares of its width and height, at the nodes of a grid over the
 /// page, bilinear in between.
@@ -81,7 +78,7 @@ impl PageWarp {
         let cells = [0, 1].map(|axis| {
             let mut cells = COARSEST_CELLS;
             let at = |along: f64, across: usize| {
-                let across = across as f64 / MEASURED_LINES as f64;
+                let across = across as f64 / COARSEST_CELLS as f64;
                 place(if axis == 0 {
                     [along, across]
                 } else {
@@ -90,7 +87,7 @@ impl PageWarp {
             };
             // Places that are not in front of the camera count as exact.
             let is_inexact = |cells: usize| {
-                (0..cells * (MEASURED_LINES + 1)).any(|i| {
+                (0..cells * (COARSEST_CELLS + 1)).any(|i| {
                     let (cell, line) = ((i % cells) as f64, i / cells);
                     let [p, middle, q] =
                         [0.0, 0.5, 1.0].map(|step| at((cell + step) / cells as f64, line));

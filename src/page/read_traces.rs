@@ -2,8 +2,9 @@
 
 use super::corners::{arrange, arrange_spread, check_on_page, check_sides};
 use super::edges::{Edges, Trace};
-use super::traced_line::{BentEdges, TracedLine, TracedPage, distance};
+use super::traced_line::{BentEdges, TracedLine, TracedPage};
 use crate::error::{Error, Result};
+use crate::math::planar::{distance, polyline_length, principal_line};
 
 /// Number of points at which each cubic Bézier curve of a trace is sampled.
 const BEZIER_SAMPLES: usize = 12;
@@ -254,25 +255,15 @@ fn read_line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result
 
 /// Sorts points by their positions along their main direction if they are in disorder.
 fn sort_along_chord(points: &mut [[f64; 2]]) {
-    let length =
-        |points: &[[f64; 2]]| -> f64 { points.windows(2).map(|w| distance(w[0], w[1])).sum() };
     if points.len() < 4 {
         return;
     }
-    let n = points.len() as f64;
-    let mean = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
-    let moment = |j: usize, k: usize| -> f64 {
-        (points.iter())
-            .map(|p| (p[j] - mean[j]) * (p[k] - mean[k]))
-            .sum()
-    };
-    let angle = 0.5 * (2.0 * moment(0, 1)).atan2(moment(0, 0) - moment(1, 1));
-    let (sin, cos) = angle.sin_cos();
+    let (_, [cos, sin]) = principal_line(points);
     let along = |p: &[f64; 2]| cos * p[0] + sin * p[1];
     let mut sorted = points.to_vec();
     sorted.sort_by(|p, q| along(p).total_cmp(&along(q)));
     // Noise makes the path through the points a little longer, disorder much longer.
-    if length(points) > DISORDER_LENGTH_RATIO * length(&sorted) {
+    if polyline_length(points) > DISORDER_LENGTH_RATIO * polyline_length(&sorted) {
         let turned = along(&points[0]) > along(&points[points.len() - 1]);
         if turned {
             sorted.reverse();

@@ -1,5 +1,7 @@
 //! Traced edges and lines of text of a page, in a common order.
 
+use crate::math::planar::distance;
+
 /// A traced edge or line of text as points in the photo, in the direction of the page's order.
 #[derive(Debug, Clone)]
 pub(super) struct TracedLine {
@@ -68,9 +70,4 @@ impl TracedLine {
         let [from, to] = self.ends();
         distance(from, to)
     }
-}
-
-/// Euclidean distance between two points.
-pub(super) fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
-    (p[0] - q[0]).hypot(p[1] - q[1])
 }

@@ -1,6 +1,6 @@
 //! Corners of a page with subpixel accuracy: intersections of neighbouring edges.
 
-use crate::math::planar::{cross, distance, line_intersection, polyline_length};
+use crate::math::planar::{cross, distance, line_intersection, polyline_length, principal_line};
 
 /// Share of an edge's points next to a corner that is left out, because paper is worn and bent there.
 /// Its row: `benches/page.md`, Constants of the outline.
@@ -11,9 +11,11 @@ const WORN_END_SHARE: f64 = 0.015;
 const END_LENGTH_SHARE: f64 = 0.08;
 
 /// Share of an edge's points from which its direction is fitted where the photo's rim cuts the edge off.
+/// Its row: `benches/page.md`, Constants of the outline.
 const CUT_END_LENGTH_SHARE: f64 = 0.2;
 
 /// Minimum number of points at an edge's end to which a line is fitted.
+/// Its row: `benches/page.md`, Constants of the outline.
 const MIN_END_POINTS: usize = 6;
 
 /// Maximum distance between the end of an edge and the corner that is found for it within the photo, as a share of the
@@ -23,9 +25,11 @@ const MAX_CORNER_SHIFT: f64 = 0.06;
 
 /// Maximum distance between the end of an edge and an extrapolated corner outside of the photo, as a share of the
 /// edge's length.
+/// Its row: `benches/page.md`, Constants of the outline.
 const MAX_EXTRAPOLATION: f64 = 0.6;
 
 /// Minimum sine of the angle at which two edges are intersected in a corner.
+/// Its row: `benches/page.md`, Constants of the outline.
 const MIN_CORNER_SINE: f64 = 0.3;
 
 /// Fits a straight line to the first points of an edge, which are the share `share` of all of them, without the worn
@@ -38,14 +42,8 @@ fn end_line(edge: &[[f64; 2]], share: f64) -> Option<[[f64; 2]; 2]> {
     if end.len() < MIN_END_POINTS {
         return None;
     }
-    let mean = [0, 1].map(|k| end.iter().map(|p| p[k]).sum::<f64>() / end.len() as f64);
-    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
-    for [x, y] in end {
-        let (dx, dy) = (x - mean[0], y - mean[1]);
-        (xx, xy, yy) = (xx + dx * dx, xy + dx * dy, yy + dy * dy);
-    }
-    let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
-    Some([mean, [mean[0] + angle.cos(), mean[1] + angle.sin()]])
+    let (mean, [cos, sin]) = principal_line(end);
+    Some([mean, [mean[0] + cos, mean[1] + sin]])
 }
 
 /// Finds the corner where two edges meet; both are given as points that begin at that corner. `None` if the edges'

@@ -13,12 +13,10 @@ const BAND_RADIUS: usize = 10;
 /// colours of paper and background.
 const BAND_MARGIN: usize = 4;
 
-/// Half width, in pixels, of the window over which the colours along a region's border are averaged.
-const SMOOTHING_LENGTH: usize = 8;
-
 /// Length, in pixels of the reduced photo, of the bends of a page's traced edge that are smoothed: those of frayed paper and of
-/// patterns of the ground. Chosen by `benches/page.md`.
-const EDGE_SMOOTHING_LENGTH: f64 = 8.0;
+/// patterns of the ground. Half the length over which the colours along a region's border are averaged. Chosen by
+/// `benches/page.md`.
+const SMOOTHING_LENGTH: usize = 8;
 
 /// Length, in pixels, of the bends of a region's border that are smoothed before the page's edge is searched beside it.
 /// Its row: `benches/page.md`, Constants of the outline.
@@ -38,6 +36,7 @@ const WEAK_CONTRAST: f32 = 0.15;
 const MIN_EDGE_CONTRAST: f32 = 0.04;
 
 /// Difference of logarithmic colour across an edge of a page at which the edge's contrast has a score of one half.
+/// Its row: `benches/page.md`, Constants of the outline.
 const HALF_SCORE_CONTRAST: f64 = 0.25;
 
 /// An edge of a page in the reduced photo: its points, and how clearly it is visible.
@@ -105,7 +104,7 @@ struct Band {
 }
 
 /// Number of pixels in a colour profile across a region's border.
-const PROFILE_LENGTH: usize = 2 * PROFILE_MIDDLE + 1;
+const PROFILE_LENGTH: usize = PROFILE_MIDDLE + 1 + PROFILE_MIDDLE;
 
 /// Index of the border itself in a colour profile across it.
 const PROFILE_MIDDLE: usize = BAND_RADIUS + BAND_MARGIN;
@@ -252,7 +251,7 @@ impl EdgePath {
         let mut contrasts: Vec<f64> = contrasts.iter().map(|c| f64::from(*c)).collect();
         let contrast = crate::math::statistics::median(&mut contrasts).unwrap_or(0.0);
         Some(EdgePath {
-            points: piecewise_smooth(&points, EDGE_SMOOTHING_LENGTH),
+            points: piecewise_smooth(&points, SMOOTHING_LENGTH as f64),
             support,
             visible,
             contrast,

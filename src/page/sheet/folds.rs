@@ -21,6 +21,7 @@ const SAMPLES_PER_STRIP: usize = 6;
 const PROFILE_ROWS: usize = 480;
 
 /// Width of the margin at the upper and lower edge without folds, in rows: edges are traced with errors.
+/// Its row: `benches/page.md`, Models.
 const FOLD_FREE_MARGIN_ROWS: usize = 29;
 
 /// Half width, in rows, of the window of the grey closing by which print is removed.
@@ -30,31 +31,37 @@ const PRINT_RADIUS_ROWS: usize = 4;
 const SMOOTHING_DEVIATION_ROWS: f64 = 1.7;
 
 /// Number of rows on either side that the smoothing reaches: three standard deviations.
-const KERNEL_ROWS: usize = (3.0 * SMOOTHING_DEVIATION_ROWS) as usize + 1;
+const KERNEL_ROWS: usize = (SMOOTHING_DEVIATION_ROWS * 3.0) as usize + 1;
 
 /// Step of brightness at which a fold is fully visible, as a multiple of the strip's median one.
 const VISIBLE_STEP_RATIO: f32 = 6.0;
 
 /// Addition to a strip's median step of logarithmic brightness: noise of evenly bright paper.
+/// Its row: `benches/page.md`, Models.
 const MIN_STEP_NOISE: f32 = 0.004;
 
 /// Cost of a change by one row from strip to strip, where a fully visible fold earns 1 in each strip.
 const ROW_CHANGE_COST: f32 = 0.04;
 
 /// Minimum mean visibility of a fold, from 0 to 1.
+/// Chosen by `benches/page.md`, Folds.
 const MIN_FOLD_VISIBILITY: f32 = 0.8;
 
 /// Minimum mean visibility of a fold in the outer strips: bars of tables end before them.
+/// Chosen by `benches/page.md`, Folds.
 const MIN_OUTER_VISIBILITY: f32 = 0.7;
 
 /// Number of strips at the left and at the right edge in which a fold is visible and print is not.
+/// Chosen by `benches/page.md`, Folds.
 const OUTER_STRIP_COUNT: usize = 3;
 
 /// Minimum distance of two folds, in rows.
 const MIN_FOLD_DISTANCE_ROWS: usize = 20;
 
-/// Maximum distance of a fold that halves the page from the middle of the flattened photo, as a share of its height.
-const MAX_HALF_FOLD_OFFSET: f64 = 0.06;
+/// Standard deviation of a fold that halves the page from its middle, as a share of the page's height, if the fit of the
+/// sheet has a cost of 1; it is divided by the square root of the cost (`benches/page.md`, Folds). A fold within three of it is
+/// one that halves the page.
+const HALF_FOLD_DEVIATION: f64 = 0.02;
 
 /// Length, in widths of the page, by which a fold at an unknown position counts as a line across the page: folds by hand are
 /// neither quite straight nor quite parallel to the edge. Chosen by `benches/page.md`, Folds.
@@ -64,17 +71,18 @@ const UNKNOWN_FOLD_LENGTH: f64 = 0.2;
 type FoldPath = Vec<usize>;
 
 /// Finds the folds across the page in the photo as flattened by a sheet. `table` gives the photo's places of the flat page;
-/// `half_deviation` is the standard deviation of the position of a fold that halves the page, as a share of its height.
+/// `cost` is that of the sheet's fit.
 pub(super) fn find_folds(
     table: &PlaceTable,
     view: &PhotoView,
     photo: &GreyPhoto,
-    half_deviation: f64,
+    cost: f64,
 ) -> Vec<LevelLine> {
+    let half_deviation = HALF_FOLD_DEVIATION / cost.max(1e-9).sqrt();
     let paths = visible_paths(strips(|share| photo.at(table.at(share))));
     let level =
         |path: &FoldPath| path.iter().map(|row| row_share(*row)).sum::<f64>() / STRIP_COUNT as f64;
-    let halves = paths.len() == 1 && (level(&paths[0]) - 0.5).abs() < MAX_HALF_FOLD_OFFSET;
+    let halves = paths.len() == 1 && (level(&paths[0]) - 0.5).abs() < 3.0 * HALF_FOLD_DEVIATION;
     (paths.iter())
         .map(|path| LevelLine {
             points: (path.iter().enumerate())

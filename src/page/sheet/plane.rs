@@ -4,6 +4,7 @@ use nalgebra::{SMatrix, SVector, Vector3};
 
 use super::camera::SheetCamera;
 use super::grid::SheetGrid;
+use crate::math::planar::{cross, difference};
 
 /// Prior knowledge about the camera and the ratio of a page's sides.
 #[derive(Debug, Clone, Copy)]
@@ -54,7 +55,7 @@ impl Homography {
     /// None if three of them are on a line.
     pub fn new(corners: [[f64; 2]; 4]) -> Option<Self> {
         let [p0, p1, p2, p3] = corners;
-        let (d1, d2) = (difference(p1, p2), difference(p3, p2));
+        let (d1, d2) = (difference(p2, p1), difference(p2, p3));
         let sum = [0, 1].map(|k| p0[k] - p1[k] + p2[k] - p3[k]);
         let area = cross(d1, d2);
         let (g, h) = (cross(sum, d2) / area, cross(d1, sum) / area);
@@ -172,12 +173,4 @@ impl Homography {
 /// Number of rows of a grid of `cols` columns with about square cells on a page of height over width `ratio`.
 pub(super) fn grid_rows(cols: usize, ratio: f64) -> usize {
     ((((cols - 1) as f64 * ratio).round() as usize).max(2) + 1).min(4 * cols)
-}
-
-fn difference(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
-    [p[0] - q[0], p[1] - q[1]]
-}
-
-fn cross(p: [f64; 2], q: [f64; 2]) -> f64 {
-    p[0] * q[1] - p[1] * q[0]
 }

@@ -1,5 +1,7 @@
 //! Polylines in a photo: nearest points and normals of a page's traced edges.
 
+use crate::math::planar::{distance, principal_line};
+
 /// A curve of straight segments.
 #[derive(Debug, Clone)]
 pub(super) struct Polyline {
@@ -28,8 +30,7 @@ impl Polyline {
     pub fn resampled(points: &[[f64; 2]], segments: usize) -> Self {
         let mut lengths = vec![0.0];
         for w in points.windows(2) {
-            let step = (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]);
-            lengths.push(lengths[lengths.len() - 1] + step);
+            lengths.push(lengths[lengths.len() - 1] + distance(w[0], w[1]));
         }
         let total = lengths[lengths.len() - 1];
         let mut piece = 0;
@@ -82,41 +83,12 @@ impl Polyline {
         })
     }
 
-    /// Fits a straight line to the polyline, given as a point and a unit direction, by reweighted least squares in
-    /// which outliers count less. The ends are left out, because corners of pages are often rounded.
-    pub fn line(&self) -> ([f64; 2], [f64; 2]) {
+    /// Fits a straight line to the polyline by least squares, given by two points. The ends are left out, because corners of
+    /// pages are often rounded.
+    pub fn line(&self) -> [[f64; 2]; 2] {
         let count = self.points.len();
         let inner = &self.points[count / 20..count - count / 20];
-        let mut weights = vec![1.0; inner.len()];
-        let mut found = ([0.0; 2], [1.0, 0.0]);
-        for _ in 0..LINE_FIT_ROUNDS {
-            let total: f64 = weights.iter().sum();
-            let mean = [0, 1].map(|k| {
-                (inner.iter().zip(&weights))
-                    .map(|(p, w)| w * p[k])
-                    .sum::<f64>()
-                    / total
-            });
-            let moment = |j: usize, k: usize| -> f64 {
-                (inner.iter().zip(&weights))
-                    .map(|(p, w)| w * (p[j] - mean[j]) * (p[k] - mean[k]))
-                    .sum()
-            };
-            let angle = 0.5 * (2.0 * moment(0, 1)).atan2(moment(0, 0) - moment(1, 1));
-            let (sin, cos) = angle.sin_cos();
-            let off = |p: &[f64; 2]| cos * (p[1] - mean[1]) - sin * (p[0] - mean[0]);
-            let scatter = (inner.iter().zip(&weights))
-                .map(|(p, w)| w * off(p).abs())
-                .sum::<f64>();
-            let scatter = (scatter / total).max(1e-12);
-            for (weight, p) in weights.iter_mut().zip(inner) {
-                *weight = 1.0 / (1.0 + (off(p) / scatter).powi(2));
-            }
-            found = (mean, [cos, sin]);
-        }
-        found
+        let (mean, [cos, sin]) = principal_line(inner);
+        [mean, [mean[0] + cos, mean[1] + sin]]
     }
 }
-
-/// Number of rounds of reweighted least squares for fitting a straight line to a polyline.
-const LINE_FIT_ROUNDS: usize = 4;

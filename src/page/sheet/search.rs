@@ -11,6 +11,7 @@ use super::polyline::Polyline;
 use super::problem::{SheetProblem, SheetWeights};
 use super::view::PhotoView;
 use crate::dewarp::Photo;
+use crate::math::planar::{distance, line_intersection};
 use crate::page::report::PageModel;
 use crate::page::text::{GreyPhoto, PageView};
 use crate::page::traced_line::BentEdges;
@@ -42,25 +43,26 @@ struct PagePrint<'a> {
 
 /// Numbers of grid columns for the first fits, before lines of print are known; coarse grids find the large bends in
 /// few steps.
+/// Its row: `benches/page.md`, Models.
 const COARSE_GRID_COLS: [usize; 2] = [9, 13];
 
 /// Number of columns of a sheet's grid when it is fitted to lines of print.
 const FINE_GRID_COLS: usize = 25;
 
 /// Number of times that lines of print are detected in the flattened photo and the sheet is fitted to them.
+/// Its row: `benches/page.md`, Models.
 const LINE_DETECTION_ROUNDS: usize = 2;
 
-/// Standard deviation of a fold that halves the page from its middle, as a share of the page's height, if the fit of the
-/// sheet has a cost of 1; it is divided by the square root of the cost (`benches/page.md`, Folds).
-const HALF_FOLD_DEVIATION: f64 = 0.02;
-
 /// Maximum number of Levenberg–Marquardt steps in one fit of a sheet to a photo.
+/// Chosen by `benches/page.md`, Beside other ways.
 const MAX_SHEET_FIT_STEPS: usize = 15;
 
 /// Relative decrease of the cost by one step below which the fit of a sheet has converged.
+/// Its row: `benches/page.md`, Constants of the outline.
 const COST_TOLERANCE: f64 = 0.01;
 
 /// Weights of the residuals in the fit of a sheet of smooth paper, which is firm against strain.
+/// Chosen by `benches/page.md`, Beside other ways.
 const FIRM_PAPER_WEIGHTS: SheetWeights = SheetWeights {
     isometry: 300.0,
     bending: [1.5; 2],
@@ -71,6 +73,7 @@ const FIRM_PAPER_WEIGHTS: SheetWeights = SheetWeights {
 
 /// Weights of the residuals in the fit of a sheet of crumpled paper, which wrinkles finer than the sheet's grid
 /// shorten.
+/// Its row: `benches/page.md`, Models.
 const CRUMPLED_PAPER_WEIGHTS: SheetWeights = SheetWeights {
     isometry: 80.0,
     bending: [3.5; 2],
@@ -85,11 +88,9 @@ const RULED_BENDING: [f64; 2] = [0.15, 30.0];
 /// be as far as it is bent. Chosen by a curled page whose tilt the lines of print alone hardly show.
 const UNSEEN_EDGE_FACTOR: f64 = 0.1;
 
-/// Factor of the isometry weight in the first fit of a sheet: a stiffer sheet would stay in the initial plane.
-const INITIAL_ISOMETRY_FACTOR: f64 = 0.25;
-
-/// Factor of the bending weight in the first fit of a sheet: a limper sheet would end in ripples.
-const INITIAL_BENDING_FACTOR: f64 = 4.0;
+/// Factor by which the first fit of a sheet weighs strain less and bends more: a sheet that is firm against strain would stay
+/// in the initial plane, a limper one would end in ripples. Chosen by `benches/page.md`, Models.
+const INITIAL_WEIGHT_RATIO: f64 = 4.0;
 
 /// Distance between lines of print and the lines on a firm sheet that they belong to, in widths of the page, above which
 /// the sheet is fitted again with the weights for crumpled paper: a sheet that wrinkles shorten does not meet them.
@@ -157,8 +158,8 @@ impl PageTraces {
             ratio: prior.ratio(apparent),
             depth,
             weights: SheetWeights {
-                isometry: INITIAL_ISOMETRY_FACTOR * weights.isometry,
-                bending: weights.bending.map(|own| INITIAL_BENDING_FACTOR * own),
+                isometry: weights.isometry / INITIAL_WEIGHT_RATIO,
+                bending: weights.bending.map(|own| INITIAL_WEIGHT_RATIO * own),
                 ..weights
             },
         };
@@ -328,9 +329,8 @@ impl SheetProblem {
             self.traced = self.lines.len();
             self.lines
                 .extend(photo.map_or_else(Vec::new, |photo| find_level_lines(&table, view, photo)));
-            let half_deviation = HALF_FOLD_DEVIATION / sheet.cost.max(1e-9).sqrt();
             self.folds = photo.map_or_else(Vec::new, |photo| {
-                find_folds(&table, view, photo, half_deviation)
+                find_folds(&table, view, photo, sheet.cost)
             });
             sheet.levels = self.expected_levels();
             if round > 0
@@ -374,12 +374,7 @@ fn corners([top, bottom, ..]: &[Polyline; 4]) -> [[f64; 2]; 4] {
 /// parallel.
 fn straight_corners(edges: &[Polyline; 4]) -> Option<[[f64; 2]; 4]> {
     let [top, bottom, left, right] = [0, 1, 2, 3].map(|k| edges[k].line());
-    let meet = |(p, d): ([f64; 2], [f64; 2]), (q, e): ([f64; 2], [f64; 2])| {
-        let area = d[0] * e[1] - d[1] * e[0];
-        let t = ((q[0] - p[0]) * e[1] - (q[1] - p[1]) * e[0]) / area;
-        let found = [p[0] + t * d[0], p[1] + t * d[1]];
-        found.iter().all(|v| v.is_finite()).then_some(found)
-    };
+    let meet = |one, other| line_intersection(one, other, 0.0);
     Some([
         meet(top, left)?,
         meet(top, right)?,
@@ -391,6 +386,5 @@ fn straight_corners(edges: &[Polyline; 4]) -> Option<[[f64; 2]; 4]> {
 /// Ratio of height to width of the page as seen in the photo, along the chords of its edges.
 fn apparent_ratio(edges: &[Polyline; 4]) -> f64 {
     let [a, b, c, d] = corners(edges);
-    let side = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
-    (side(a, d) + side(b, c)) / (side(a, b) + side(d, c))
+    (distance(a, d) + distance(b, c)) / (distance(a, b) + distance(d, c))
 }

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::bands::{Band, MIN_BAND_STRIPS, SmoothedProfiles};
+use crate::math::statistics::{MAD_TO_SIGMA, median};
 
 /// Baseline of a line of text, in pixels of the ink image.
 #[derive(Debug, Clone)]
@@ -15,6 +16,7 @@ pub(super) struct Baseline {
 }
 
 /// Minimum share of the vertical strips of a band of ink in which its lower edge lies on the fitted baseline.
+/// Its row: `benches/page.md`, Models.
 const MIN_INLIER_SHARE: f64 = 0.6;
 
 /// Maximum scatter of the lower edges of a band of ink about its fitted baseline, in pixels of the ink image;
@@ -23,6 +25,7 @@ const MIN_INLIER_SHARE: f64 = 0.6;
 const MAX_SCATTER_PIXELS: f64 = 0.3;
 
 /// Addition to the maximum scatter of lower edges about a baseline, as a share of half the x-height.
+/// Its row: `benches/page.md`, Models.
 const MAX_SCATTER_SCALES: f64 = 0.05;
 
 impl Baseline {
@@ -40,7 +43,7 @@ impl Baseline {
         }
         let curve = fit_robust(&all, 4.min(all.len() / 6).max(1))?;
         let off: Vec<f64> = all.iter().map(|p| (p[1] - curve.at(p[0])).abs()).collect();
-        let scatter = 1.4826 * median(off.clone());
+        let scatter = MAD_TO_SIGMA * median(&mut off.clone())?;
         let near = (2.5 * scatter).max(0.3);
         let points: Vec<[f64; 2]> = (all.iter().zip(&off))
             .filter(|(_, off)| **off <= near)
@@ -115,12 +118,6 @@ fn fit_robust(points: &[[f64; 2]], degree: usize) -> Option<Polynomial> {
         found = Some(polynomial);
     }
     found
-}
-
-/// Median of values; 0 if there are none.
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// Evaluates the Legendre polynomials of degrees 0 to `degree`, scaled to the interval from 0 to 1, at a place `at` in

@@ -5,6 +5,7 @@
 const INITIAL_DAMPING: f64 = 1e-3;
 
 /// Minimum damping of the Levenberg–Marquardt method, relative to the normal matrix's diagonal.
+/// Its row: `benches/page.md`, Models.
 const MIN_DAMPING: f64 = 1e-12;
 
 /// Damping of the Levenberg–Marquardt method at which the search for a step that lowers the cost ends.
@@ -14,6 +15,7 @@ const MAX_DAMPING: f64 = 1e8;
 const DAMPING_DECREASE: f64 = 0.1;
 
 /// Factor that multiplies the Levenberg–Marquardt damping after a step that does not lower the cost.
+/// Its row: `benches/page.md`, Models.
 const DAMPING_INCREASE: f64 = 5.0;
 
 /// A robust least-squares problem: its model, and the normal equations at one.

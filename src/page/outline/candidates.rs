@@ -5,10 +5,12 @@ use super::colour_model::{COLOUR_NOISE, ColourModel, opponent_axes, range};
 use super::planes::Planes;
 
 /// Width of the strip along the photo's rim that is initially taken for background, as a share of the photo's sides.
+/// Its row: `benches/page.md`, Constants of the outline.
 const FRAME_SHARE: f64 = 0.04;
 
 /// Distance from the photo's rim of the central rectangle that is initially taken for the page, as a share of the
 /// photo's sides.
+/// Its row: `benches/page.md`, Constants of the outline.
 const MIDDLE_SHARE: f64 = 0.25;
 
 /// Number of levels to which pixel values are rounded when Otsu's thresholds are computed.

@@ -9,9 +9,6 @@ const SAMPLES_ALONG_LONGER_SIDE: usize = 320;
 /// Width of the strips in which rows of print are detected, in samples: narrow enough that lines may be bent.
 const STRIP_SAMPLES: usize = 32;
 
-/// Share of the page's side at each edge that is left out when the orientation is determined, because of shadows.
-const MARGIN_SHARE: f64 = 0.05;
-
 /// Minimum ratio of the contrast energies across and along the lines for the print to have a direction.
 const MIN_ENERGY_RATIO: f64 = 1.6;
 
@@ -50,9 +47,7 @@ pub(super) fn quarter_turns(raw: &Planes, clean: &Planes, corners: &[[f64; 2]; 4
         let samples = SAMPLES_ALONG_LONGER_SIDE as f64 * side / longer;
         (samples.round() as usize).max(1)
     });
-    let share = |i: usize, n: usize| {
-        MARGIN_SHARE + (1.0 - 2.0 * MARGIN_SHARE) * (i as f64 + 0.5) / n as f64
-    };
+    let share = |i: usize, n: usize| (i as f64 + 0.5) / n as f64;
     let mut print = vec![0.0_f32; width * height];
     let (mut total, mut right) = (0.0, 0.0);
     for (i, value) in print.iter_mut().enumerate() {

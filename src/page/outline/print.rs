@@ -14,17 +14,12 @@ const LETTERS_RADIUS: usize = 6;
 
 /// Minimum ratio of the smaller to the larger eigenvalue of the structure tensor at print: letters have strokes of all
 /// directions, edges and folds of one.
+/// Its row: `benches/page.md`, Constants of the outline.
 const MIN_PRINT_ISOTROPY: f32 = 0.2;
 
 /// Minimum smaller eigenvalue of the structure tensor at print, in squared logarithmic colour per pixel: crumpled paper has
 /// less.
 const MIN_PRINT_ENERGY: f32 = 5e-3;
-
-/// Distance, in the list of print's pixels, between those by which the share of print in an outline is counted.
-const COUNTED_PIXEL_STEP: usize = 7;
-
-/// Exponent of the share of all print that lies in an outline: a page contains all of it, and a tenth outside costs a third.
-const PRINT_POWER: i32 = 4;
 
 /// The print in a photo.
 pub(super) struct Print {
@@ -79,11 +74,9 @@ impl Print {
         self.is_among_letters[y * self.width + x]
     }
 
-    /// Likeness to a page, from 0 to 1, of a region with the given corners, in pixels of the reduced photo, by the share of
-    /// all print in it.
-    pub fn likeness(&self, corners: &[[f64; 2]; 4]) -> f64 {
-        let counted = || self.pixels.iter().step_by(COUNTED_PIXEL_STEP);
-        let inside = counted().filter(|pixel| polygon_contains(corners, **pixel));
-        (inside.count() as f64 / counted().count().max(1) as f64).powi(PRINT_POWER)
+    /// Share of all print that is in a region with the given corners, in pixels of the reduced photo.
+    pub fn share_within(&self, corners: &[[f64; 2]; 4]) -> f64 {
+        let inside = (self.pixels.iter()).filter(|pixel| polygon_contains(corners, **pixel));
+        inside.count() as f64 / self.pixels.len().max(1) as f64
     }
 }

@@ -13,16 +13,19 @@ use crate::math::planar::polygon_area;
 /// Number of directions among which that of the lines of print is searched, over half a turn.
 const PRINT_DIRECTIONS: usize = 90;
 
-/// Half the length, in pixels, over which contrast is averaged along an edge.
+/// Half the length, in pixels, over which contrast is averaged along an edge, and half the width of the band beside a path that no
+/// other path enters.
 const AVERAGING_RADIUS: usize = 8;
 
 /// Slopes of edges relative to the frame at which contrast is averaged: perspective turns edges from the lines of print.
+/// Its row: `benches/page.md`, Constants of the outline.
 const EDGE_SLOPES: [f64; 5] = [-0.3, -0.15, 0.0, 0.15, 0.3];
 
 /// Half the side, in pixels, of the square whose mean contrast is that of the texture around an edge.
-const TEXTURE_RADIUS: usize = 16;
+const TEXTURE_RADIUS: usize = AVERAGING_RADIUS * 2;
 
 /// Minimum texture, in logarithmic colour: about the noise of a reduced photo.
+/// Its row: `benches/page.md`, Constants of the outline.
 const MIN_TEXTURE: f32 = 0.002;
 
 /// Contrast of an edge that is surely seen, as a multiple of the texture around it.
@@ -34,10 +37,8 @@ const MIN_EDGE_STRENGTH: f32 = 0.5;
 /// Worth that a path loses at each place for each pixel of print beyond it.
 const PRINT_OUTSIDE_COST: f32 = 0.1;
 
-/// Maximum worth that a path loses at a place for print beyond it.
-const MAX_PRINT_OUTSIDE_COST: f32 = 2.0;
-
 /// Half the number of rows over which print beyond a path is averaged: about the distance of lines of print.
+/// Its row: `benches/page.md`, Constants of the outline.
 const PRINT_ROWS_RADIUS: usize = 30;
 
 /// Worth that a path loses by a sideways step of one pixel.
@@ -46,10 +47,8 @@ const STEP_COST: f32 = 0.05;
 /// Number of paths that are tried on each side of the print.
 const PATHS_PER_SIDE: usize = 4;
 
-/// Half the width, in pixels, of the band beside a path that no other path enters.
-const SAME_PATH_RADIUS: usize = 8;
-
 /// Length, in pixels, over which an edge's contrast has to keep its sign.
+/// Its row: `benches/page.md`, Constants of the outline.
 const SEGMENT_LENGTH: usize = 40;
 
 /// Length beyond a corner over which it is measured whether an edge continues, as a share of the edge.
@@ -57,9 +56,11 @@ const BEYOND_CORNER_SHARE: f64 = 0.12;
 
 /// Penalty of an edge that continues with full strength beyond a corner, as do joints of tiles and folds of a page; from 0 to
 /// 1.
+/// Its row: `benches/page.md`, Constants of the outline.
 const BEYOND_CORNER_PENALTY: f64 = 0.8;
 
 /// Distance from the photo's rim, in pixels, within which no contrast is measured.
+/// Its row: `benches/page.md`, Constants of the outline.
 const PRINT_FRAME_RIM_PIXELS: f64 = 2.0;
 
 /// An outline: four arcs, clockwise, in pixels of the reduced photo.
@@ -135,7 +136,7 @@ impl Side {
             let path = self.best_path(&worth);
             for (row, r) in worth.chunks_exact_mut(self.reach).zip(&path) {
                 let near =
-                    r.saturating_sub(SAME_PATH_RADIUS)..(r + SAME_PATH_RADIUS + 1).min(row.len());
+                    r.saturating_sub(AVERAGING_RADIUS)..(r + AVERAGING_RADIUS + 1).min(row.len());
                 row[near].fill(-1.0);
             }
             path
@@ -243,8 +244,7 @@ impl PrintFrame {
                 if !is_seen[at] {
                     return 0.0;
                 }
-                let cost = (PRINT_OUTSIDE_COST * beyond[i]).min(MAX_PRINT_OUTSIDE_COST);
-                strengths[at] - MIN_EDGE_STRENGTH - cost
+                strengths[at] - MIN_EDGE_STRENGTH - PRINT_OUTSIDE_COST * beyond[i]
             };
             Side {
                 rows,
@@ -291,7 +291,7 @@ impl PrintFrame {
     }
 
     /// Finds the outline around the print that is seen best, and its score from 0 to 1: the geometric mean over its edges of
-    /// their strength, less what continues beyond the corners, and of its likeness to a page by shape and print.
+    /// their strength, less what continues beyond the corners, and of its likeness to a page by shape and the share of the print within.
     pub fn best_outline(&self, print: &Print) -> Option<(f64, Arcs)> {
         let paths = self.sides.each_ref().map(Side::best_paths);
         let mut best: Option<(f64, Arcs)> = None;
@@ -322,7 +322,7 @@ impl PrintFrame {
                 arc
             });
             let ends = arcs.each_ref().map(|arc| arc[0]);
-            worth *= rectangularity(&ends) * print.likeness(&ends);
+            worth *= rectangularity(&ends) * print.share_within(&ends);
             if polygon_area(&ends) > 0.0 && best.as_ref().is_none_or(|(most, _)| worth > *most) {
                 best = Some((worth, arcs));
             }

@@ -16,9 +16,11 @@ use crate::page::text::ranking::ranked;
 pub(super) const MIN_PHOTO_SIDE_PIXELS: usize = 64;
 
 /// Minimum share of the photo's area that a page covers.
+/// Its row: `benches/page.md`, Constants of the outline.
 const MIN_PAGE_SHARE: f64 = 0.05;
 
 /// Maximum number of candidate regions whose edges are traced.
+/// Its row: `benches/page.md`, Constants of the outline.
 const MAX_TRACED_CANDIDATES: usize = 6;
 
 /// Distance, as a share of the photo's longer side, up to which two corners count as equal: of two candidates with the same
@@ -27,6 +29,7 @@ const MAX_TRACED_CANDIDATES: usize = 6;
 pub(super) const SAME_CORNER_SHARE: f64 = 0.03;
 
 /// Minimum score, from 0 to 1, of an outline for the verdict `Found`, and of a further page in the photo.
+/// Its row: `benches/page.md`, Constants of the outline.
 const MIN_FOUND_SCORE: f64 = 0.45;
 
 /// Minimum score, from 0 to 1, of an outline for the verdict `Doubtful`; below it no page was found.

@@ -5,6 +5,7 @@ use nalgebra::Vector2;
 use crate::page::robust_fit;
 
 /// Number of rounds of iteratively reweighted least squares.
+/// Its row: `benches/page.md`, Constants of the outline.
 const REWEIGHTING_ROUNDS: usize = 6;
 
 /// Distance of a point from the curve, in pixels, above which the point is an outlier and counts less.

@@ -21,13 +21,11 @@ const MIN_EDGE_SUPPORT: f64 = 0.85;
 pub(super) const MIN_VISIBLE_SHARE: f64 = 0.5;
 
 /// Minimum number of visible edges of a page: with fewer it can hardly be told from a table.
+/// Its row: `benches/page.md`, Constants of the outline.
 const MIN_VISIBLE_EDGES: usize = 3;
 
 /// Distance of a corner outside of the photo that is not reported, as a share of the photo's longer side.
 const MAX_OUTSIDE_SHARE: f64 = 0.01;
-
-/// Minimum share of an edge's points that lie on the photo's rim, next to a corner, for the corner to count as cut off.
-const CUT_LENGTH_SHARE: f64 = 0.02;
 
 /// Spacing of the points of a traced edge, in pixels of the reduced photo.
 const POINT_DISTANCE: usize = 3;
@@ -58,15 +56,9 @@ pub(super) fn thinned(edge: &[[f64; 2]], raw: &Planes) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Number of points at the start of an arc that lie on the rim of an image of size `size`; 0 if they are only a small
-/// share of the arc.
+/// Number of points at the start of an arc that lie on the rim of an image of size `size`.
 fn cut_points(arc: &[[f64; 2]], size: [usize; 2]) -> usize {
-    let count = arc.iter().take_while(|p| is_at_rim(**p, size)).count();
-    if count as f64 > CUT_LENGTH_SHARE * arc.len() as f64 {
-        count
-    } else {
-        0
-    }
+    arc.iter().take_while(|p| is_at_rim(**p, size)).count()
 }
 
 /// Extrapolates the corners that the rim of an image of size `size` cuts off, and removes from the arcs next to them

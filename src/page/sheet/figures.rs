@@ -14,10 +14,6 @@ pub(super) struct SheetFigures {
     pub lines: f64,
 }
 
-/// Number of Gauss-Newton steps by which the positions of lines of print on the page are fitted to a sheet that is
-/// held.
-const LEVEL_ROUNDS: usize = 3;
-
 impl SheetProblem {
     /// Computes the misfits of a sheet; None if it is not in front of the camera.
     pub fn figures(&self, sheet: &FittedSheet) -> Option<SheetFigures> {
@@ -42,23 +38,22 @@ impl SheetProblem {
         })
     }
 
-    /// Returns the sheet with each line of print at the level (share of the page's height or width) where it fits the
-    /// line in the photo best, and with folds at their expected levels. None if the sheet is not in front of the camera.
+    /// Returns the sheet with each line of print at the level (share of the page's height or width) to which one
+    /// Gauss-Newton step moves it from its expected one, and with folds at their expected levels. None if the sheet is not in
+    /// front of the camera.
     pub fn with_levels(&self, sheet: &FittedSheet) -> Option<FittedSheet> {
         let mut sheet = sheet.clone();
         sheet.levels = self.expected_levels();
-        for _ in 0..LEVEL_ROUNDS {
-            let mut sums = vec![[0.0; 2]; sheet.levels.len()];
-            let mut sink = |row: &ResidualRow| {
-                if let Some((line, derivative)) = row.level {
-                    sums[line][0] += derivative * row.value;
-                    sums[line][1] += derivative * derivative;
-                }
-            };
-            self.visit_lines(&sheet.grid, self.lines.iter().zip(&sheet.levels), &mut sink)?;
-            for (level, [right, square]) in sheet.levels.iter_mut().zip(sums) {
-                *level = (*level - right / square.max(1e-300)).clamp(0.0, 1.0);
+        let mut sums = vec![[0.0; 2]; sheet.levels.len()];
+        let mut sink = |row: &ResidualRow| {
+            if let Some((line, derivative)) = row.level {
+                sums[line][0] += derivative * row.value;
+                sums[line][1] += derivative * derivative;
             }
+        };
+        self.visit_lines(&sheet.grid, self.lines.iter().zip(&sheet.levels), &mut sink)?;
+        for (level, [right, square]) in sheet.levels.iter_mut().zip(sums) {
+            *level = (*level - right / square.max(1e-300)).clamp(0.0, 1.0);
         }
         Some(sheet)
     }

@@ -77,10 +77,12 @@ pub(super) struct ResidualRow {
 const FOLD_CURVATURE: f64 = 1.5;
 
 /// Distance between border and outline, in widths of the page, above which a node is an outlier and counts less.
+/// Its row: `benches/page.md`, Models.
 const OUTLINE_OUTLIER_DISTANCE: f64 = 0.01;
 
 /// Distance between a line's point and its line on the sheet, in widths of the page, above which the point is an
 /// outlier and counts less.
+/// Its row: `benches/page.md`, Models.
 const LINE_OUTLIER_DISTANCE: f64 = 0.004;
 
 impl ResidualRow {

@@ -34,6 +34,7 @@ const EDGE_SEGMENTS: usize = 160;
 
 /// Assumed focal length where it is not known, as a multiple of the photo's longer side: that of a phone, with a photo
 /// that is cropped slightly.
+/// Its row: `benches/page.md`, Constants of the outline.
 const USUAL_FOCAL_RATIO: f64 = 0.9;
 
 /// Standard deviation of the logarithm of an unknown focal length. Chosen by `benches/page.md`, Models.
@@ -63,6 +64,7 @@ const MAX_OUTLINE_MISFIT: f64 = 0.02;
 const MAX_CYLINDER_MISFIT: f64 = 0.0021;
 
 /// Maximum expected error of the flat page for a verdict other than `Doubtful`, in % of the page's width.
+/// Chosen by `benches/page.md`, Expected error.
 const MAX_TRUSTED_ERROR: f64 = 1.5;
 
 /// Minimum number of lines of print that check how a page is bent: outlines alone leave much open.

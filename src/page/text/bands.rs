@@ -28,6 +28,7 @@ const MIN_STRIP_PIXELS: usize = 6;
 pub(super) const MIN_BAND_STRIPS: usize = 8;
 
 /// Maximum number of consecutive vertical strips in which a band of ink may be interrupted.
+/// Its row: `benches/page.md`, Models.
 const MAX_MISSING_STRIPS: usize = 2;
 
 /// Minimum contrast of a band of ink: negative second derivative of the darkness across it, times the square of half
@@ -37,9 +38,6 @@ const MIN_BAND_CONTRAST: f32 = 0.03;
 /// Maximum distance between a band of ink in the next vertical strip and its extrapolation there, as a multiple of half
 /// the searched x-height.
 const MAX_BAND_OFFSET: f64 = 1.0;
-
-/// Maximum slope of a band of ink, in rows per column.
-const MAX_BAND_SLOPE: f64 = 0.25;
 
 impl StripProfiles {
     /// Computes the mean darkness of each row in each vertical strip of an ink image.
@@ -152,8 +150,7 @@ impl SmoothedProfiles {
                 let one = &mut open[i];
                 let (last, row) = one.band[one.band.len() - 1];
                 let slope = (peaks[j] - row) / ((strip - last) as f64 * step);
-                one.slope =
-                    (0.75 * one.slope + 0.25 * slope).clamp(-MAX_BAND_SLOPE, MAX_BAND_SLOPE);
+                one.slope = 0.75 * one.slope + 0.25 * slope;
                 one.band.push((strip, peaks[j]));
             }
             let (on, ended): (Vec<_>, Vec<_>) = open

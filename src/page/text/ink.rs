@@ -28,10 +28,6 @@ const PAPER_BLOCKS_ACROSS: usize = 40;
 /// Quantile of the brightness of a block's pixels that is taken for the paper's brightness.
 const PAPER_QUANTILE: f64 = 0.85;
 
-/// Width of the margin along the page's edges that is left out of the ink image, as a share of the page's sides: edges
-/// are traced with errors.
-const MARGIN_SHARE: f64 = 0.015;
-
 /// Side, in pixels of the ink image, of the square cells whose corners are projected to the photo; in between, the places
 /// are interpolated, with an error of some hundredths of a pixel.
 const PIXELS_PER_CELL: usize = 8;
@@ -85,15 +81,14 @@ impl InkImage {
             })
             .collect();
         let mut data = vec![f32::NAN; width * height];
-        let [left, top] = [width, height].map(|n| (MARGIN_SHARE * n as f64).ceil() as usize);
         let mut line = vec![[0.0; 2]; cols];
-        for row in top..height - top {
+        for row in 0..height {
             let (above, t) = cell_place(row);
             for (col, place) in line.iter_mut().enumerate() {
                 let [p, q] = [above, above + 1].map(|row| nodes[row * cols + col]);
                 *place = between(p, q, t);
             }
-            for col in left..width - left {
+            for col in 0..width {
                 let (before, s) = cell_place(col);
                 let place = between(line[before], line[before + 1], s);
                 data[row * width + col] = photo.at(place);

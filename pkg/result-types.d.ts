@@ -572,7 +572,7 @@ export interface FoldLine {
   patches: [number, number];
   /** Whether the fold is a mountain or a valley fold, seen from above. */
   direction: FoldDirection;
-  /** Fold angle in degrees: 0 where the sheet stays flat. */
+  /** Fold angle in degrees: 0 where the sheet stays flat. Folds of at most half a degree are not drawn. */
   angle: number;
   /** The smooth bend that the fold line is a part of. */
   bend?: FoldBend;

@@ -124,8 +124,11 @@ export function sheetFigures({ width, height, summary: { cutLength, mountainLeng
  */
 export async function drawingImage(api, drawing) {
   const image = new Image();
-  // On paper lines are a fifth of a millimetre wide: too thin to be seen where a large drawing is shown small.
-  const svg = new TextDecoder().decode(await api.writeSvg(drawing)).replace(/stroke-width="[^"]*"/g, 'stroke-width="1"').replaceAll('<path ', '<path vector-effect="non-scaling-stroke" ');
+  // On paper lines are a fifth of a millimetre wide: too thin to be seen where a large drawing is shown small. Here they are as many
+  // pixels wide on the screen, and dashes as long, whatever the scale.
+  const svg = new TextDecoder().decode(await api.writeSvg(drawing)).replace(/stroke-width="[^"]*"/g, 'stroke-width="1"')
+    .replace(/stroke-dasharray="([^"]*)"/g, (_, dashes) => `stroke-dasharray="${dashes.split(' ').map((/** @type {string} */ dash) => 3 * Number(dash)).join(' ')}"`)
+    .replaceAll('<path ', '<path vector-effect="non-scaling-stroke" ');
   const address = URL.createObjectURL(new Blob([svg], { type: 'image/svg+xml' }));
   try {
     image.src = address;

@@ -7,7 +7,7 @@ use crate::math::index::NO_INDEX;
 use crate::math::lanes;
 
 /// Minimum side, in pixels, of the square cells of border pixels from which the map is extrapolated by one common
-/// quadratic, which is fitted to a window four times as wide.
+/// quadratic, which is fitted to a window around it.
 const MIN_CELL_PIXELS: usize = 8;
 
 impl WarpMap {

@@ -32,6 +32,9 @@ pub(super) fn apply_bend_allowance(
     };
     for k in 0..sheet.folds.len() {
         let fold = out.folds[k].clone();
+        if !fold.is_made() {
+            continue;
+        }
         if !is_straight(&fold, out.spacing) {
             return Err(Error::CurvedFold {
                 sheet: number + 1,

@@ -8,9 +8,6 @@ use crate::pattern::{Direction, Fold, Seam};
 /// Maximum distance between a curve of a drawing and the polyline that approximates it, in millimetres.
 pub(super) const FLATTENING_TOLERANCE_MM: f64 = 0.02;
 
-/// Angle of a fold, in degrees, below which it is not drawn: its label, in whole degrees, would say that it is none.
-pub(super) const MIN_FOLD_ANGLE: f64 = 0.5;
-
 /// A fold line of a drawn sheet: a line along which the sheet is folded.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(
@@ -28,7 +25,7 @@ pub struct Line {
     pub patches: [u32; 2],
     /// Whether the fold is a mountain or a valley fold, seen from above.
     pub direction: Direction,
-    /// Fold angle in degrees: 0 where the sheet stays flat.
+    /// Fold angle in degrees: 0 where the sheet stays flat. Folds of at most half a degree are not drawn.
     pub angle: f64,
     /// The smooth bend that the fold line is a part of.
     #[cfg_attr(

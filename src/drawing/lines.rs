@@ -2,7 +2,7 @@
 
 use super::circle::with_arcs;
 use super::curve::Curve;
-use super::line::{Line, MIN_FOLD_ANGLE};
+use super::line::Line;
 use super::options::DrawingOptions;
 use super::smooth::{Smooth, smooth_lines};
 use crate::pattern::{Run, Sheet};
@@ -41,8 +41,8 @@ impl<'a> Lines<'a> {
                 .map(runs)
                 .collect(),
             folds: folds
+                .filter(|(fold, _)| fold.is_made())
                 .map(|(fold, curve)| Line::of_fold(fold, scaled(curve), options))
-                .filter(|line| line.bend.is_some() || line.angle >= MIN_FOLD_ANGLE)
                 .collect(),
         }
     }

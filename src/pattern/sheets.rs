@@ -104,6 +104,9 @@ pub struct Run {
     pub points: Vec<[f64; 2]>,
 }
 
+/// Angle, in degrees, up to which a fold is none: drawings give angles in whole degrees, and would call it 0°.
+const MAX_NO_FOLD_ANGLE_DEGREES: f64 = 0.5;
+
 /// A line along which a sheet is folded.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -117,6 +120,13 @@ pub struct Fold {
     /// Polyline of the fold on the flat sheet: at least two points; the first one is repeated at the end where the fold
     /// is closed.
     pub points: Vec<[f64; 2]>,
+}
+
+impl Fold {
+    /// Whether the fold is one to make: it belongs to a smooth bend, or its angle does not round to 0°.
+    pub(crate) fn is_made(&self) -> bool {
+        self.bend.is_some() || self.seam.angle.to_degrees() > MAX_NO_FOLD_ANGLE_DEGREES
+    }
 }
 
 /// A smooth bend of a model with exact faces: a piece of a cylinder or cone, which is folded along several lines.

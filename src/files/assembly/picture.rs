@@ -122,7 +122,7 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
                 cuts = drawn(&run.points).fold(cuts, Group::add);
             }
         }
-        for fold in &sheet.folds {
+        for fold in sheet.folds.iter().filter(|fold| fold.is_made()) {
             folds = drawn(&fold.points).fold(folds, Group::add);
         }
         let title = Title::new(format!("Sheet {}", number + 1));

@@ -4,9 +4,10 @@
 //! the discs beside it show, while noise bends in every direction at every scale, whatever its correlation.
 
 use super::merge::merge;
-use super::noise::sample;
+use super::noise::{largest_trust, sample};
 use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
+use crate::heights::bridging::BRIDGE_CONFIDENCE;
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::ROW_SPACING;
 use crate::math::fork;
@@ -167,8 +168,10 @@ impl CurvatureScale {
 pub(super) fn curvature_scales(input: &Input, discs: &[Disc]) -> Result<Vec<CurvatureScale>> {
     let lattice = *input.field.lattice();
     let mut heights = try_filled("heights whose noise is measured", lattice.len(), f64::NAN)?;
+    // What is bridged is nearly as smooth as the rest; what is trusted less says nothing about the noise.
+    let least = BRIDGE_CONFIDENCE * largest_trust(input);
     for vertex in (0..lattice.len()).filter(|vertex| !input.is_occluded(*vertex)) {
-        heights[vertex] = sample(input, vertex, 0.0);
+        heights[vertex] = sample(input, vertex, least);
     }
     let mut means = Input::new(Heightfield::new(lattice, heights)?);
     let mut scales = Vec::new();

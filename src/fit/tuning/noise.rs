@@ -139,7 +139,8 @@ fn ring_noise(input: &Input) -> Option<f64> {
     Some(MAD_TO_SIGMA * median(&mut samples)? / 6f64.sqrt())
 }
 
-/// Minimum confidence of a height that noise is measured from, as a share of the largest: discards bridged vertices.
+/// Minimum confidence of a height that noise is measured from in rings of neighbours, as a share of the largest: discards bridged
+/// vertices.
 pub(super) const MIN_SAMPLE_CONFIDENCE: f64 = 0.5;
 
 /// Largest confidence of a height that is not constrained.
@@ -319,6 +320,31 @@ mod tests {
                 "{blur} {share} {product} {noise:?}"
             );
         }
+    }
+
+    /// Of heights that are hardly trusted the noise says nothing, though they are most of all.
+    #[test]
+    fn noise_is_that_of_trusted_heights() {
+        let noise = white(7);
+        let cols = lattice().cols();
+        let is_trusted = |vertex: usize| lattice().position(vertex / cols, vertex % cols)[0] > 0.7;
+        let [trusted, other] = [0.005, 0.05];
+        let heights = noise.iter().enumerate();
+        let heights = heights.map(|(i, n)| {
+            if is_trusted(i) {
+                trusted * n
+            } else {
+                other * n
+            }
+        });
+        let field = Heightfield::new(lattice(), heights.collect()).unwrap();
+        let confidence = (0..lattice().len()).map(|i| if is_trusted(i) { 1.0 } else { 0.01 });
+        let input = Input::new(field)
+            .with_confidence(confidence.collect())
+            .unwrap();
+        let found = Noise::from_input(&input).unwrap().unwrap();
+        assert!((found.sigma / trusted - 1.0).abs() < 0.1, "{found:?}");
+        assert_eq!(found.correlation_length, 0.0);
     }
 
     /// Smooth bends are no noise, whether they stand alone or behind small noise.

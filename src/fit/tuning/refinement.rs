@@ -1,6 +1,7 @@
 //! Refinement of λ by what the surface of a solve leaves of the heights.
 
 use super::noise::Noise;
+use crate::fit::options::LAMBDA_RANGE;
 
 /// Largest mean square of the residual, in squares of the noise, that noise explains: above it a part of the shape is lost.
 const MAX_SQUARED_RESIDUAL: f64 = 2.0;
@@ -42,7 +43,7 @@ pub(crate) struct Refinement {
     spacings: f64,
     /// Number of solves so far.
     pub solves: usize,
-    /// λ and risk of the best solve.
+    /// λ and residual of the best solve.
     best: Option<(f64, f64)>,
     /// λ and distance of the solve that is farthest from the heights within the tolerance, and of the nearest one beyond it.
     within: Option<(f64, f64)>,
@@ -77,22 +78,26 @@ impl Refinement {
     /// Takes the root mean square residual of a solve, in [`Refinement::unit`], and returns λ of the next one.
     pub(crate) fn next(&mut self, lambda: f64, residual: f64) -> Next {
         self.solves += 1;
-        match self.aim {
+        let next = match self.aim {
             Aim::Noise(_) => self.next_for_noise(lambda, residual),
             Aim::Distance { is_exact, .. } => self.next_for_distance(is_exact, lambda, residual),
+        };
+        let largest = *LAMBDA_RANGE.end();
+        match next {
+            Next::Solve(wanted) if wanted > largest && lambda >= largest => Next::Keep(lambda),
+            Next::Solve(wanted) => Next::Solve(wanted.min(largest)),
+            kept => kept,
         }
     }
 
-    /// Raises λ where a part of the shape is lost, as long as that brings the residual closer to the noise: a larger one is lost
-    /// shape, a smaller one noise that the surface has followed.
+    /// Raises λ where a part of the shape is lost, as long as the residual falls.
     fn next_for_noise(&mut self, lambda: f64, residual: f64) -> Next {
-        let risk = (residual.powi(2) - 1.0).abs();
         if let Some((best, least)) = self.best
-            && risk >= least
+            && residual >= least
         {
             return Next::Keep(best);
         }
-        self.best = Some((lambda, risk));
+        self.best = Some((lambda, residual));
         match residual.powi(2) > MAX_SQUARED_RESIDUAL && self.solves < MAX_SOLVES {
             true => Next::Solve(LAMBDA_RAISE_FACTOR * lambda),
             false => Next::Keep(lambda),
@@ -116,10 +121,11 @@ impl Refinement {
             let (kept, _) = self
                 .within
                 .unwrap_or((2.0 * lambda * distance.powi(2), 1.0));
-            return if kept == lambda || self.spacings > 1.0 {
-                Next::Keep(kept)
-            } else {
-                Next::Solve(kept)
+            // At full size a λ that is kept is that of the solve.
+            return match self.spacings > 1.0 {
+                true => Next::Keep(kept),
+                false if kept == lambda || self.solves >= MAX_SOLVES => Next::Keep(lambda),
+                false => Next::Solve(kept),
             };
         }
         let wanted = 0.5 * (1.0 + MIN_TOLERANCE_SHARE);

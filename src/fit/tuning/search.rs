@@ -187,7 +187,8 @@ impl Search {
         }
     }
 
-    /// Starts the comparison of penalties on the coarse lattice if noise is independent there; returns whether it does.
+    /// Starts the comparison of penalties on the coarse lattice if noise is independent there, the energy is one of them, and enough
+    /// heights can be held out; returns whether it does.
     fn start_comparison(&mut self, coarse: &Input) -> Result<bool> {
         if !self.is_independent || self.first.energy_or_default() != Energy::Huber {
             return Ok(false);

@@ -59,8 +59,8 @@ const OUTER_STRIP_COUNT: usize = 3;
 const MIN_FOLD_DISTANCE_ROWS: usize = 20;
 
 /// Standard deviation of a fold that halves the page from its middle, as a share of the page's height, if the fit of the
-/// sheet has a cost of 1; it is divided by the square root of the cost (`benches/page.md`, Folds). A fold within three of it is
-/// one that halves the page.
+/// sheet has a cost of 1; it is divided by the square root of the cost (`benches/page.md`, Folds). A fold within three of these
+/// deviations is one that halves the page.
 const HALF_FOLD_DEVIATION: f64 = 0.02;
 
 /// Length, in widths of the page, by which a fold at an unknown position counts as a line across the page: folds by hand are

@@ -144,8 +144,9 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
     if (fields.check()) {
       stop();
       waiting.end();
-      // The fault stands at its field.
+      // The fault stands at its field, and nothing is drawn any more.
       setMissing('');
+      preview.setAttribute('aria-busy', 'false');
       element('save-title', HTMLElement).textContent = SHEET_WORDS.title;
       status.textContent = '';
       pageWarning.hidden = true;

@@ -225,7 +225,7 @@ sharedTest('what cannot be laid flat whole is laid flat in pieces, which are sav
   // What cannot be is refused in its place, and nothing of another size can be saved.
   for (const wrong of ['0', '-5']) {
     await side.fill(wrong);
-    await page.locator('#save-size', { hasText: /Longer side when finished.* This must be a number from 10 to 5000/ }).waitFor();
+    await page.locator('#sheet-side-wrong', { hasText: /^This must be a number from 10 to 5000/ }).waitFor();
     assert.ok(await page.locator('#save-now').isDisabled());
   }
   await side.fill(String(doubled));

@@ -441,7 +441,7 @@ doorTest('sheets of a model without a unit are in millimetres, and the headline 
   }
   await unit.selectOption('inch');
   assert.equal(await page.getByLabel('Longer side when finished, mm').inputValue(), '152400');
-  await page.locator('#save-size', { hasText: /This must be a number from 10 to 5000/ }).waitFor();
+  await page.locator('#sheet-side-wrong', { hasText: /^This must be a number from 10 to 5000/ }).waitFor();
 });
 
 doorTest('a model of card has its textures printed on its sheets, and one of metal has none', async (page) => {

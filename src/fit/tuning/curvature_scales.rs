@@ -4,7 +4,7 @@
 //! the discs beside it show, while noise bends in every direction at every scale, whatever its correlation.
 
 use super::merge::merge;
-use super::noise::{largest_trust, sample};
+use super::trust::{largest_trust, sample};
 use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
 use crate::heights::bridging::BRIDGE_CONFIDENCE;

@@ -5,7 +5,8 @@
 //! error. If the two are independent, the expected square is smallest for the surface nearest to the truth, whatever
 //! energy it minimises. They are independent only if noise is independent from vertex to vertex.
 
-use super::noise::{MIN_NOISE_SAMPLES, MIN_SAMPLE_CONFIDENCE, largest_trust, sample};
+use super::noise::MIN_NOISE_SAMPLES;
+use super::trust::{MIN_SAMPLE_CONFIDENCE, largest_trust, sample};
 use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
 use crate::heights::heightfield::Heightfield;

@@ -10,3 +10,4 @@ pub(crate) mod noise;
 pub(crate) mod refinement;
 pub(crate) mod residual;
 pub(crate) mod search;
+mod trust;

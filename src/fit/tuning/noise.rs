@@ -2,6 +2,7 @@
 
 use super::correlated_noise::CorrelatedNoise;
 use super::curvature_scales::{DISC_RADII, Disc, curvature_scales};
+use super::trust::{MIN_SAMPLE_CONFIDENCE, largest_trust, sample};
 use crate::error::Result;
 use crate::fit::input::Input;
 use crate::heights::pixel_noise::quantisation_step;
@@ -137,30 +138,6 @@ fn ring_noise(input: &Input) -> Option<f64> {
         return None;
     }
     Some(MAD_TO_SIGMA * median(&mut samples)? / 6f64.sqrt())
-}
-
-/// Minimum confidence of a height that noise is measured from in rings of neighbours, as a share of the largest: discards bridged
-/// vertices.
-pub(super) const MIN_SAMPLE_CONFIDENCE: f64 = 0.5;
-
-/// Largest confidence of a height that is not constrained.
-pub(super) fn largest_trust(input: &Input) -> f64 {
-    match input.confidence.is_empty() {
-        true => 1.0,
-        false => (0..input.field.lattice().len())
-            .filter(|v| !input.is_constrained(*v) && !input.field.heights()[*v].is_nan())
-            .map(|v| input.weight(v))
-            .fold(0.0, f64::max),
-    }
-}
-
-/// Height of a vertex; NaN where its confidence is below `least` or 0, or the vertex is constrained.
-pub(super) fn sample(input: &Input, vertex: usize, least: f64) -> f64 {
-    let weight = input.weight(vertex);
-    if input.is_constrained(vertex) || weight < least || weight == 0.0 {
-        return f64::NAN;
-    }
-    input.field.heights()[vertex]
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Distance of a surface to the heights of its input, by which λ is judged.
 
-use super::noise::{MIN_SAMPLE_CONFIDENCE, largest_trust, sample};
+use super::trust::{MIN_SAMPLE_CONFIDENCE, largest_trust, sample};
 use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
 use crate::heights::heightfield::Heightfield;

@@ -162,7 +162,7 @@ test('a solver runs in steps of the asked-for length', () => {
     const start = performance.now();
     assert.equal(solver.advance(milliseconds), true);
     const spent = performance.now() - start;
-    assert.ok(solver.progress().cgIterations > before.cgIterations);
+    assert.notDeepEqual(solver.progress(), before);
     // It comes back at all: the solve has no end of its own.
     assert.ok(spent >= milliseconds * 0.5, `${spent} ms for ${milliseconds}`);
   }

@@ -2,15 +2,12 @@
 
 use super::traced_line::{TracedLine, TracedPage};
 use crate::error::{Error, Result};
-use crate::math::planar::{
-    distance, distance_to_segment, orientation, polygon_contains, segments_intersect,
-};
+use crate::math::planar::{distance, distance_to_segment, orientation, polygon_contains};
 
 /// Maximum number of segments to which a traced edge is thinned before it is compared with others.
 const MAX_CROSSING_SEGMENTS: usize = 1000;
 
-/// Maximum distance between the ends of two edges that share a corner, and of a line of text from its page, as a share of the
-/// edge's chord: traces are drawn by hand.
+/// Maximum distance between the ends of two edges that share a corner, as a share of the edge's chord.
 const MAX_CORNER_GAP_SHARE: f64 = 0.05;
 
 /// Orients both bent edges of a page alike, so that the corners lie clockwise in the photo, and checks that they can
@@ -85,8 +82,19 @@ fn thinned(line: &TracedLine) -> Vec<[f64; 2]> {
 /// Returns an error if the two bent edges of a page cross each other in the photo.
 fn check_no_crossing(first: &TracedLine, second: &TracedLine) -> Result<()> {
     let (one, other) = (thinned(first), thinned(second));
-    let crossing = (one.windows(2))
-        .find(|s| (other.windows(2)).any(|t| segments_intersect([s[0], s[1]], [t[0], t[1]])));
+    // Edges that touch count, too, unlike in `segments_intersect`.
+    let meet = |s: &[[f64; 2]], t: &[[f64; 2]]| {
+        let is_apart = |k: usize| {
+            s[0][k].max(s[1][k]) < t[0][k].min(t[1][k])
+                || t[0][k].max(t[1][k]) < s[0][k].min(s[1][k])
+        };
+        let sides = |p, q, [r, s]: [[f64; 2]; 2]| orientation(p, q, r) * orientation(p, q, s);
+        !is_apart(0)
+            && !is_apart(1)
+            && sides(s[0], s[1], [t[0], t[1]]) <= 0.0
+            && sides(t[0], t[1], [s[0], s[1]]) <= 0.0
+    };
+    let crossing = (one.windows(2)).find(|s| other.windows(2).any(|t| meet(s, t)));
     let Some([[x, y], ..]) = crossing else {
         return Ok(());
     };
@@ -158,6 +166,9 @@ pub(super) fn check_sides(
     Ok(())
 }
 
+/// Maximum distance of a traced line of text outside of its page's outline, as a share of the page's bent edge.
+const MAX_OUTSIDE_SHARE: f64 = 0.03;
+
 /// Checks that all points of a traced line of text lie between the two bent edges of its page. `number` is the line's
 /// number for the error message.
 ///
@@ -170,7 +181,7 @@ pub(super) fn check_on_page(
 ) -> Result<()> {
     let mut outline = thinned(first);
     outline.extend(thinned(second).into_iter().rev());
-    let slack = MAX_CORNER_GAP_SHARE * first.chord().max(second.chord());
+    let slack = MAX_OUTSIDE_SHARE * first.chord().max(second.chord());
     let sides = || (outline.iter().copied()).zip(outline.iter().cycle().skip(1).copied());
     let is_beside = |at| sides().any(|(p, q)| distance_to_segment(at, [p, q]) < slack);
     for at @ [x, y] in points {
@@ -185,4 +196,28 @@ pub(super) fn check_on_page(
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edges_that_touch_cross_from_either_side() {
+        let line = |points: &[[f64; 2]]| TracedLine {
+            name: "top",
+            points: points.to_vec(),
+        };
+        let [valley, peak] = [[0.0, 10.0], [10.0, 0.0]]
+            .map(|[ends, middle]| line(&[[0.0, ends], [5.0, middle], [10.0, ends]]));
+        for edge in [[0.0, 0.0], [10.0, 10.0]] {
+            let straight = line(&[[0.0, edge[0]], [10.0, edge[1]]]);
+            for bent in [&valley, &peak] {
+                assert!(check_no_crossing(bent, &straight).is_err());
+                assert!(check_no_crossing(&straight, bent).is_err());
+            }
+        }
+        let apart = line(&[[0.0, 11.0], [10.0, 11.0]]);
+        assert!(check_no_crossing(&valley, &apart).is_ok());
+    }
 }

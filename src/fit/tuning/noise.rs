@@ -299,7 +299,7 @@ mod tests {
         }
     }
 
-    /// Of heights that are hardly trusted the noise says nothing, though they are most of all.
+    /// Noise is measured where heights are trusted, though most of them are hardly trusted.
     #[test]
     fn noise_is_that_of_trusted_heights() {
         let noise = white(7);

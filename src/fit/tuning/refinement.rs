@@ -3,17 +3,20 @@
 use super::noise::Noise;
 use crate::fit::options::LAMBDA_RANGE;
 
-/// Largest mean square of the residual, in squares of the noise, that noise explains: above it a part of the shape is lost.
+/// Largest mean square of the residual, in squares of the noise, that noise explains: above it a part of the shape is lost
+/// (`benches/scenes.md`, Rules of λ that do not pay).
 const MAX_SQUARED_RESIDUAL: f64 = 2.0;
 
 /// Largest residual, in units of the noise, that counts as such: an outlier, or the side of a step, says no more than that its vertex
 /// is lost (`benches/scenes.md`, Residuals).
 pub(crate) const MAX_RESIDUAL: f64 = 2.0;
 
-/// Factor by which λ is raised at once: so much that a solve more is worth its cost, and no more than a warm start is of use for.
+/// Factor by which λ is raised at once: so much that a solve more is worth its cost, and no more than a warm start is of use for
+/// (`benches/scenes.md`, Rules of λ that do not pay).
 const LAMBDA_RAISE_FACTOR: f64 = 3.0;
 
-/// Maximum number of solves by which λ is refined on the coarse lattice, and at full size.
+/// Maximum number of solves by which λ is refined on the coarse lattice, and at full size (`benches/scenes.md`,
+/// Rules of λ that do not pay).
 const MAX_SOLVES: usize = 5;
 
 /// Least distance to the heights, as a share of the tolerance that was asked for, at which no simpler surface is looked for.

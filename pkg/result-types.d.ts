@@ -392,7 +392,7 @@ export interface DrawingSummary {
   tabs: number;
   /** Number of creases that are cut and have a tab on neither side, for want of room; 0 if no tabs are wanted. */
   untabbed: number;
-  /** Number of cuts whose letter is on one side only or on none, for want of room. */
+  /** Number of cuts without a letter, for want of room on one side or both. */
   unlettered: number;
   /** Total length of all cut lines, in millimetres. */
   cutLength: number;

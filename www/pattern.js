@@ -89,7 +89,7 @@ export function sheetsInWords({ summary: { sheets, seams, folds, slits, strain, 
   const lost = (missing?.area ?? 0) + (missing?.stepArea ?? 0);
   const without = lost > 0 ? ` ${number(lost / 100, 2)} cm² of the surface, at ragged borders or steps, are on no sheet.` : '';
   const bare = untabbed > 0 ? ` ${untabbed === 1 ? 'One cut has' : `${count(untabbed)} cuts have`} no room for a tab.` : '';
-  const nameless = unlettered > 0 ? ` ${unlettered === 1 ? 'One cut lacks its letter' : `${count(unlettered)} cuts lack their letter`} on a side.` : '';
+  const nameless = unlettered > 0 ? ` ${unlettered === 1 ? 'One cut has' : `${count(unlettered)} cuts have`} no room for a letter.` : '';
   return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}${fold}${cut}.${slit}${stretch}${without}${bare}${nameless}`;
 }
 

@@ -79,7 +79,7 @@ export function reportPattern(task, drawing, plan) {
     say(`warning: a sheet is strained by ${percent(strain, 2)}, more than the limit of ${percent(maxStrain, 2)}: lengths on it are wrong by that much on average`);
   }
   if (untabbed > 0) say(`warning: ${counted(untabbed, 'seam')} without a tab, for want of room on both sides`);
-  if (unlettered > 0) say(`warning: ${counted(unlettered, 'cut')} without a letter on one side or both, for want of room`);
+  if (unlettered > 0) say(`warning: ${counted(unlettered, 'cut')} without a letter, for want of room on one side or both`);
 }
 
 /** How well what is joined fits. @param {import('../types.js').Drawing} drawing */

@@ -27,26 +27,26 @@ export async function whole(task, signal) {
   if (task.explore || task.sheets !== undefined) return planned(task, mesh, signal);
   const exact = task.command === 'pattern' && await isExact(task, mesh);
   const surface = task.asIs || exact ? undefined : await fitted(task, mesh, signal);
-  const files = await made[task.command](task, surface ?? mesh, mesh, exact);
+  const files = await made[task.command](task, surface ?? mesh, mesh, exact || surface?.report.stopReason === 'noNoise');
   await writeWhole(files, signal);
   if (surface !== undefined) tell(task, surface, mesh);
 }
 
 /**
- * Whether a mesh is taken as it is, which is said.
+ * Whether a mesh is taken as it is, which is said. Who gives λ asks for a fit.
  * @param {Task} task
  * @param {Mesh} mesh
  */
-async function isExact({ input, asIs, blank, recognized }, mesh) {
+async function isExact({ input, asIs, blank, lambda, recognized }, mesh) {
   const { kind, thickness, faces, noise = 0 } = recognized ?? await developable.recognizeMesh(mesh);
   if (thickness !== undefined && !blank) {
     say(`${input} looks like sheet metal, ${Number(thickness.toPrecision(4))} thick in the file's unit: --blank draws what it is bent from`);
   }
-  if (kind === 'noisy') return false;
+  if (kind === 'noisy' || (lambda !== undefined && !asIs)) return false;
   if (kind === 'noisyFaces') {
     if (asIs) return false;
     say(`${input} looks like ${faces === 1 ? '1 flat face' : `${faces} flat faces`} with noise of ${Number(noise.toPrecision(2))} in the file's unit: the noise is removed (--as-is keeps it)`);
-  } else if (!asIs) say(`${input} is taken as it is: ${kind === 'faces' ? 'each of its faces is kept' : 'its vertices have no noise'}`);
+  } else if (!asIs) say(`${input} is taken as it is: ${kind === 'faces' ? 'each of its faces is kept (--lambda auto removes noise first)' : 'its vertices have no noise'}`);
   return true;
 }
 

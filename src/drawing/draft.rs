@@ -47,8 +47,8 @@ pub(super) struct SeamAnnotations {
 }
 
 impl DrawnSheet {
-    /// Draws a sheet, and returns the creases of its sides without a letter, for want of room.
-    pub(super) fn new(
+    /// Draws a sheet, and returns the letters that one of its sides lacks, for want of room.
+    pub(super) fn new<'a>(
         number: usize,
         sheet: &Sheet,
         lines: &Lines<'_>,
@@ -57,8 +57,8 @@ impl DrawnSheet {
             letters,
             marks,
             swapped,
-        }: &SeamAnnotations,
-    ) -> Result<(Self, Vec<usize>)> {
+        }: &'a SeamAnnotations,
+    ) -> Result<(Self, Vec<&'a str>)> {
         let scale = options.scale;
         let (plain, flaps) = add_tabs(&lines.outlines, options.tabs, swapped);
         let out = options.allowance + 0.5 * options.kerf;
@@ -138,7 +138,7 @@ impl DrawnSheet {
         let labels = Label::without_collisions(outer, labels, &walls, &folds);
         let unlettered = (sides.iter())
             .filter(|(_, texts)| !texts.iter().any(|text| labels.contains(text)))
-            .map(|((crease, ..), _)| *crease)
+            .map(|((crease, ..), _)| &letters[crease][..])
             .collect();
         let sheet = DrawnSheet {
             name,

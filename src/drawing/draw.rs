@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::bend::apply_bend_allowance;
 use super::draft::{SeamAnnotations, letters};
 use super::joints::matched_lines;
+use super::label::{Label, LabelKind};
 use super::marks::mark_counts;
 use super::nest::Shape;
 use super::options::{DrawingOptions, MAX_SIZE};
@@ -96,10 +97,18 @@ impl Drawing {
                 swapped_tabs(&outlines, tabs)
             },
         };
-        let (drawn, unlettered): (Vec<DrawnSheet>, Vec<Vec<usize>>) =
+        let (mut drawn, unlettered): (Vec<DrawnSheet>, Vec<Vec<&str>>) =
             (sheets.iter().zip(&lines).enumerate())
                 .map(|(number, (sheet, own))| DrawnSheet::new(number, sheet, own, &options, &named))
                 .collect::<Result<_>>()?;
+        // A letter on one side names nothing.
+        let unlettered: BTreeSet<&str> = unlettered.into_iter().flatten().collect();
+        for sheet in &mut drawn {
+            let is_kept = |label: &Label| {
+                label.kind != LabelKind::Seam || !unlettered.contains(&label.text[..])
+            };
+            sheet.labels.retain(is_kept);
+        }
         let boxes: Vec<Place> = (drawn.iter())
             .map(|sheet| Place::around(&Shape::new(sheet).lines))
             .collect();
@@ -118,11 +127,7 @@ impl Drawing {
         if tabs.is_some() {
             summary.untabbed = untabbed(sheets, &drawn);
         }
-        summary.unlettered = unlettered
-            .concat()
-            .into_iter()
-            .collect::<BTreeSet<_>>()
-            .len();
+        summary.unlettered = unlettered.len();
         summary.a4 = page_count(&drawn, Stock::A4);
         summary.letter = page_count(&drawn, Stock::Letter);
         Ok(Drawing {

@@ -149,7 +149,7 @@ impl Label {
 
     /// Chooses for each text the first of its candidates that lies within the outlines, on none of them or of the folds, and on no other
     /// text, letters of seams first and angles of folds last; a text without such a candidate is left out. Those `beside` the sheet, at
-    /// leader lines, are kept. The letter of a seam may lie on lines, if need be.
+    /// leader lines, are kept. The letter of a seam may lie on folds, if need be.
     pub(super) fn without_collisions(
         beside: Vec<Label>,
         mut texts: Vec<Vec<Label>>,
@@ -173,21 +173,22 @@ impl Label {
                     line[0][k].min(line[1][k]) <= high[k] && line[0][k].max(line[1][k]) >= low[k]
                 })
             };
-            let near: Vec<_> = outlines.iter().chain(folds).filter(is_near).collect();
+            let [edges, folds] =
+                [outlines, folds].map(|lines| lines.iter().filter(is_near).collect::<Vec<_>>());
             let is_apart = |label: &Label| {
                 is_within(label.place, outlines.iter().copied())
+                    && !edges.iter().any(|line| label.is_crossed_by(line))
                     && !out.iter().any(|other| label.touches(other))
             };
             let is_free = |label: &&Label| {
-                is_apart(label) && !near.iter().any(|line| label.is_crossed_by(line))
+                is_apart(label) && !folds.iter().any(|line| label.is_crossed_by(line))
             };
-            let smallest = candidates
-                .iter()
-                .rev()
-                .filter(|label| label.kind == LabelKind::Seam);
+            let is_on_folds = |label: &&Label| label.kind == LabelKind::Seam && is_apart(label);
             let kept = candidates.iter().find(is_free);
-            let kept = kept.or_else(|| smallest.into_iter().find(|label| is_apart(label)));
-            out.extend(kept.cloned());
+            out.extend(
+                kept.or_else(|| candidates.iter().rev().find(is_on_folds))
+                    .cloned(),
+            );
         }
         out
     }
@@ -251,18 +252,10 @@ impl Label {
     }
 
     pub(super) fn sheet(name: &str, [min, max]: [[f64; 2]; 2]) -> Self {
-        Label {
-            kind: LabelKind::Sheet,
-            text: name.into(),
-            place: [0.5 * (min[0] + max[0]), max[1] + TEXT_SIZE_MM],
-            size: TEXT_SIZE_MM,
-            turn: 0.0,
-            patches: None,
-        }
+        Label::note(name, [0.5 * (min[0] + max[0]), max[1] + TEXT_SIZE_MM])
     }
 
     /// Creates a small text that belongs to no sheet, such as the name of a printed page.
-    #[cfg(feature = "patterns")]
     pub(crate) fn note(text: &str, place: [f64; 2]) -> Self {
         Label {
             kind: LabelKind::Sheet,

@@ -52,7 +52,7 @@ pub struct Totals {
     pub tabs: usize,
     /// Number of creases that are cut and have a tab on neither side, for want of room; 0 if no tabs are wanted.
     pub untabbed: usize,
-    /// Number of cuts whose letter is on one side only or on none, for want of room.
+    /// Number of cuts without a letter, for want of room on one side or both.
     #[cfg_attr(feature = "serde", serde(default))]
     pub unlettered: usize,
     /// Total length of all cut lines, in millimetres.

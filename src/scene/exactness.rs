@@ -3,7 +3,6 @@
 use super::half_edges::half_edge_ends;
 use super::mesh::Mesh;
 use super::polyhedron::Polyhedron;
-use crate::math::index::NO_INDEX;
 use crate::math::statistics::median;
 
 /// Minimum share of the facets that are strips of bends, and maximum share of those that are neither strips nor faces. Of
@@ -20,9 +19,6 @@ const MIN_LOW_POLY_ANGLE: f64 = 8.0;
 /// Maximum number of faces of a model that is built face by face, however little these fold: a ball of as many has
 /// [`MIN_LOW_POLY_ANGLE`], other surfaces less.
 const MAX_FEW_FACES: usize = 500;
-
-/// Minimum share of all inner edges that are flat to rounding in a model of few faces, whatever its bends: noise leaves none.
-const MIN_FLAT_SHARE: f64 = 0.25;
 
 /// Minimum share of the area of a mesh without noise that lies in planes of several triangles.
 const MIN_PLANAR_SHARE: f64 = 0.5;
@@ -77,15 +73,10 @@ fn are_faces_exact(solid: &Polyhedron) -> bool {
     strips >= MIN_STRIP_SHARE || (has_faces && has_no_noise(solid))
 }
 
-/// Whether a mesh has so few faces that each is one that was meant, and no sign of noise: bends that are alike at neighbours, or faces
-/// of several triangles.
-pub(crate) fn has_few_exact_faces(mesh: &Mesh) -> bool {
-    Polyhedron::new(mesh).is_ok_and(|solid| {
-        let inner = solid.twins.iter().filter(|twin| **twin != NO_INDEX).count() / 2;
-        let flat = inner - solid.inner_sides().count();
-        solid.normals.len() <= MAX_FEW_FACES
-            && (has_no_noise(&solid) || flat as f64 >= MIN_FLAT_SHARE * inner as f64)
-    })
+/// Whether a mesh has so few faces that whoever asks for its pattern means each of them. Noise in so few would not be told from shape,
+/// and is removed by a fit if that is asked for.
+pub(crate) fn has_few_faces(mesh: &Mesh) -> bool {
+    Polyhedron::new(mesh).is_ok_and(|solid| solid.normals.len() <= MAX_FEW_FACES)
 }
 
 fn are_vertices_exact(solid: &Polyhedron) -> bool {

@@ -396,7 +396,21 @@ test('a mesh of which one side hides much is taken whole without a flag, and so 
   };
   const [whole, words] = await area('box.stl');
   assert.ok(Math.abs(whole - 2 * (600 + 300 + 200)) < 1e-6, String(whole));
-  assert.match(words, /box\.stl is taken as it is: each of its faces is kept/);
+  assert.match(words, /box\.stl is taken as it is: each of its faces is kept \(--lambda auto removes noise first\)/);
+  const [left, smoothed] = await area('box.stl', '--lambda', 'auto');
+  assert.ok(Math.abs(left - whole) < 1e-6, String(left));
+  assert.match(smoothed, /box\.stl has no noise/);
+  // Few faces are those of a model, however rough, unless a fit is asked for.
+  const height = (/** @type {number} */ x, /** @type {number} */ y) => 0.02 * (x - 4.5) ** 2 * (y - 4.5) + ((Math.sin(12.9898 * (10 * y + x)) * 43758.5453) % 0.3);
+  const rough = Float64Array.from(Array.from({ length: 100 }, (_, i) => [i % 10, Math.floor(i / 10), height(i % 10, Math.floor(i / 10))]).flat());
+  const squares = Array.from({ length: 81 }, (_, i) => 10 * Math.floor(i / 9) + (i % 9));
+  const corners = Uint32Array.from(squares.flatMap((a) => [a, a + 1, a + 11, a, a + 11, a + 10]));
+  await writeFile(join(folder, 'rough.stl'), direct.writeStl({ positions: rough, triangles: corners }));
+  const [kept, said] = await area('rough.stl');
+  assert.match(said, /each of its faces is kept \(--lambda auto/);
+  const [fitted, told] = await area('rough.stl', '--lambda', 'auto');
+  assert.match(told, /rough\.stl is taken for a scan with noise of 0\.\d+/);
+  assert.ok(fitted < 0.95 * kept, `${fitted} ${kept}`);
   assert.ok(Math.abs((await area('gable.stl'))[0] - 2 * 40 * Math.hypot(30, 10)) < 1e-6);
   assert.ok(Math.abs((await area('box.stl', '--size', '60'))[0] - 4 * 2200) < 1e-6);
   // A side is taken where it is asked for, and what else is there is said.

@@ -311,13 +311,22 @@ fn cuts_without_room_for_their_letters_are_counted() {
         let mut without = 0;
         for scale in [100.0, 5.0, 2.0, 1.0, 0.3] {
             let drawing = drawn(sheets, DrawingOptions::default().scale(scale));
-            let labels = drawing.sheets.iter().flat_map(|sheet| &sheet.labels);
+            let labels = (drawing.sheets.iter())
+                .flat_map(|sheet| sheet.labels.iter().map(move |l| (sheet, l)));
             let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-            for label in labels.filter(|label| label.kind == LabelKind::Seam) {
+            for (sheet, label) in labels.filter(|(_, label)| label.kind == LabelKind::Seam) {
                 *counts.entry(&label.text).or_default() += 1;
+                let (sin, cos) = label.turn.to_radians().sin_cos();
+                let wide = 0.29 * label.size * label.text.len() as f64;
+                for (x, y) in [(wide, 0.5), (wide, -0.5), (-wide, 0.5), (-wide, -0.5)] {
+                    let [px, py] = label.place;
+                    let y = y * label.size;
+                    let corner = [px + x * cos - y * sin, py + x * sin + y * cos];
+                    assert!(inside(corner, &sheet.cuts), "scale {scale}: {label:?}");
+                }
             }
-            let both = counts.values().filter(|count| **count == 2).count();
-            without = drawing.summary.seams + drawing.summary.slits - both;
+            assert!(counts.values().all(|count| *count == 2), "{counts:?}");
+            without = drawing.summary.seams + drawing.summary.slits - counts.len();
             assert_eq!(drawing.summary.unlettered, without, "scale {scale}");
             assert!(without == 0 || scale < 100.0);
         }

@@ -675,8 +675,7 @@ fn models_of_few_faces_are_built_face_by_face_however_little_these_fold() {
         MeshKind::of(&Mesh::new(points, triangles).unwrap()).unwrap()
     };
     // Squares of a saddle, no four of whose corners lie in a plane, and the same with a tenth of their size of noise.
-    let n = 10u32;
-    let saddle = |noise: f64| {
+    let saddle = |n: u32, noise: f64| {
         let mut random = Random::new(5);
         let point = |i: u32| {
             let (x, y) = (f64::from(i % n), f64::from(i / n));
@@ -687,11 +686,12 @@ fn models_of_few_faces_are_built_face_by_face_however_little_these_fold() {
             ]
         };
         let squares = (0..n - 1).flat_map(|j| (0..n - 1).map(move |i| j * n + i));
-        let triangles = squares.flat_map(|a| [[a, a + 1, a + 11], [a, a + 11, a + 10]]);
+        let triangles = squares.flat_map(|a| [[a, a + 1, a + n + 1], [a, a + n + 1, a + n]]);
         kind((0..n * n).map(point).collect(), triangles.collect())
     };
-    assert!(matches!(saddle(0.0), MeshKind::Faces));
-    assert!(matches!(saddle(0.1), MeshKind::Noisy));
+    assert!(matches!(saddle(10, 0.0), MeshKind::Faces));
+    assert!(matches!(saddle(10, 0.1), MeshKind::Faces));
+    assert!(matches!(saddle(20, 0.1), MeshKind::Noisy));
     // An open pyramid of many sides, whose tip bends by more than all other vertices together.
     let sides = 14u32;
     let mut points = vec![[0.0, 0.0, 60.0]];

@@ -52,7 +52,7 @@ test('what of a surface is on no sheet is said, and which cuts have no tab or le
   const summary = { sheets: 2, seams: 3, folds: 0, slits: 0, strain: 0, untabbed: 0, unlettered: 0 };
   const said = (/** @type {object} */ more) => sheetsInWords(/** @type {any} */ ({ summary: { ...summary, ...more } }));
   assert.equal(said({}), '2 sheets, to be joined along 3 cuts.');
-  assert.equal(said({ unlettered: 2 }), '2 sheets, to be joined along 3 cuts. 2 cuts lack their letter on a side.');
+  assert.equal(said({ unlettered: 2 }), '2 sheets, to be joined along 3 cuts. 2 cuts have no room for a letter.');
   assert.match(said({ missing: { vertices: 4, area: 1200, steps: 1, stepArea: 300 }, untabbed: 1 }), /15 cm² of the surface.* are on no sheet\. One cut has no room for a tab\.$/);
 });
 

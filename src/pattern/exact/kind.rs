@@ -4,7 +4,7 @@ use super::FoundFaces;
 use super::noisy::noisy_faces;
 use super::rolled::rolled_faces;
 use crate::error::Result;
-use crate::scene::exactness::{Exactness, has_few_exact_faces};
+use crate::scene::exactness::{Exactness, has_few_faces};
 use crate::scene::mesh::Mesh;
 
 /// What a mesh is, and the faces that were found in it. Each kind is laid flat in its own way.
@@ -35,7 +35,7 @@ impl MeshKind {
         };
         Ok(match (found, exactness) {
             (Some(kind), _) => kind,
-            _ if has_few_exact_faces(mesh) => MeshKind::Faces,
+            _ if has_few_faces(mesh) => MeshKind::Faces,
             (None, Exactness::Vertices) => MeshKind::Surface,
             _ => MeshKind::Noisy,
         })

@@ -114,14 +114,19 @@ struct ChosenChannels {
     alpha: Option<usize>,
 }
 
-/// Finds the first layer of an OpenEXR file that holds heights; returns its number, its header and the channels to
-/// read.
+/// A channel of an OpenEXR file: its layer and its index there, the group to which it belongs, and its name, in small letters.
+struct NamedChannel {
+    layer: usize,
+    index: usize,
+    group: String,
+    name: String,
+}
+
+/// Finds the channels of an OpenEXR file that hold heights; returns the number of their layer, its header and the channels.
 fn choose_layer(layers: &[Header]) -> Result<(usize, &Header, ChosenChannels)> {
     let flat = || layers.iter().enumerate().filter(|(_, header)| !header.deep);
-    let found = flat().find_map(|(i, header)| {
-        heights_among(&header.channels.list).map(|chosen| (i, header, chosen))
-    });
-    let Some((i, header, chosen)) = found else {
+    let named: Vec<NamedChannel> = flat().flat_map(named_channels).collect();
+    let Some((layer, chosen)) = heights_among(&named, layers) else {
         let names: Vec<String> = flat()
             .flat_map(|(_, header)| &header.channels.list)
             .map(|channel| format!("`{}`", channel.name))
@@ -135,52 +140,66 @@ fn choose_layer(layers: &[Header]) -> Result<(usize, &Header, ChosenChannels)> {
         };
         return Err(unsupported(Format::Exr, reason));
     };
+    let header = &layers[layer];
     // The decoder assumes longer lines than subsampled channels have.
     let is_plain = |channel: &ChannelDescription| channel.sampling == Vec2(1, 1);
     if !header.channels.list.iter().all(is_plain) {
         let reason = "subsampled channels; write it with one sample for each pixel";
         return Err(unsupported(Format::Exr, reason));
     }
-    Ok((i, header, chosen))
+    Ok((layer, header, chosen))
 }
 
-fn heights_among(channels: &[ChannelDescription]) -> Option<ChosenChannels> {
-    // In a file of several layers, names of channels begin with the layer's name.
-    let names: Vec<(String, String)> = channels
-        .iter()
-        .map(|channel| {
-            let name = channel.name.to_string().to_lowercase();
-            match name.rsplit_once('.') {
-                Some((group, last)) => (group.to_owned(), last.to_owned()),
-                None => (String::new(), name),
-            }
-        })
-        .collect();
-    let place = |group: &str, name: &str| {
-        names
-            .iter()
-            .position(|(its_group, its_name)| its_group == group && its_name == name)
-    };
+/// The channels of a layer. Their names begin with their group, or it is the layer of that name.
+fn named_channels((layer, header): (usize, &Header)) -> impl Iterator<Item = NamedChannel> {
+    let layer_name = header.own_attributes.layer_name.as_ref();
+    (header.channels.list.iter().enumerate()).map(move |(index, channel)| {
+        let full = channel.name.to_string().to_lowercase();
+        let (group, name) = match full.rsplit_once('.') {
+            Some((group, name)) => (group.to_owned(), name),
+            None => (
+                layer_name.map_or(String::new(), |name| name.to_string().to_lowercase()),
+                &*full,
+            ),
+        };
+        NamedChannel {
+            layer,
+            index,
+            group,
+            name: name.to_owned(),
+        }
+    })
+}
+
+/// Chooses among the channels of all layers, since a picture often stands before its depths.
+fn heights_among(named: &[NamedChannel], layers: &[Header]) -> Option<(usize, ChosenChannels)> {
     // Blender calls the value of its depth pass `Depth.Z` or `Depth.V`; other passes have a `Z` of their own.
-    let depth = (names.iter()).position(|(group, name)| {
-        matches!(name.as_str(), "v" | "z") && group.rsplit('.').next() == Some("depth")
-    });
-    let single = depth.or_else(|| {
-        (["z", "depth", "y"].into_iter())
-            .find_map(|wanted| names.iter().position(|(_, name)| name == wanted))
-    });
-    let grey = || {
-        names.iter().find_map(|(group, _)| {
-            ["r", "g", "b"]
-                .into_iter()
-                .map(|name| place(group, name))
-                .collect::<Option<Vec<usize>>>()
+    let of_depth = |one: &&NamedChannel| one.group.rsplit('.').next() == Some("depth");
+    let depth = || (named.iter().filter(of_depth)).find(|one| ["v", "z"].contains(&&*one.name));
+    let called = |wanted: &str| named.iter().find(|one| one.name == wanted);
+    let beside = |one: &NamedChannel, wanted: &str| {
+        named.iter().find(|other| {
+            (other.layer, &other.group, &*other.name) == (one.layer, &one.group, wanted)
         })
     };
-    let only = || (channels.len() == 1).then(|| vec![0]);
-    let heights = single.map(|k| vec![k]).or_else(grey).or_else(only)?;
-    let alpha = place(&names[heights[0]].0, "a").filter(|k| !heights.contains(k));
-    Some(ChosenChannels { heights, alpha })
+    let grey = || {
+        (named.iter().filter(of_depth).chain(named)).find_map(|one| {
+            (["r", "g", "b"].into_iter())
+                .map(|name| beside(one, name))
+                .collect::<Option<Vec<_>>>()
+        })
+    };
+    let only = || {
+        named
+            .iter()
+            .find(|one| layers[one.layer].channels.list.len() == 1)
+    };
+    let single = depth().or_else(|| ["z", "depth", "y"].into_iter().find_map(called));
+    let chosen = (single.map(|one| vec![one]).or_else(grey)).or_else(|| Some(vec![only()?]))?;
+    let heights: Vec<usize> = chosen.iter().map(|one| one.index).collect();
+    let alpha = beside(chosen[0], "a").map(|one| one.index);
+    let alpha = alpha.filter(|index| !heights.contains(index));
+    Some((chosen[0].layer, ChosenChannels { heights, alpha }))
 }
 
 fn failed(error: ExrError) -> Error {
@@ -222,4 +241,49 @@ pub fn write_exr(image: &HeightImage) -> Result<Vec<u8>> {
         .to_buffered(&mut file)
         .map_err(failed)?;
     Ok(file.into_inner())
+}
+
+#[cfg(test)]
+mod tests {
+    use ::exr::meta::attribute::IntegerBounds;
+    use ::exr::meta::header::ImageAttributes;
+
+    use super::*;
+
+    /// An OpenEXR file of layers, each with its name and its channels, of which a value fills the two pixels.
+    fn layers(stated: &[(&str, &[(&str, f32)])]) -> Vec<u8> {
+        let layers = stated.iter().map(|(name, channels)| {
+            let filled = |(name, value): &(&str, f32)| {
+                AnyChannel::new(*name, FlatSamples::F32(vec![*value; 2]))
+            };
+            Layer::new(
+                (2, 1),
+                LayerAttributes::named(*name),
+                Encoding::UNCOMPRESSED,
+                AnyChannels::sort(channels.iter().map(filled).collect()),
+            )
+        });
+        let mut file = Cursor::new(Vec::new());
+        let attributes = ImageAttributes::new(IntegerBounds::from_dimensions((2, 1)));
+        let image = Image::from_layers(attributes, layers.collect::<Vec<_>>());
+        image.write().non_parallel().to_buffered(&mut file).unwrap();
+        file.into_inner()
+    }
+
+    #[test]
+    fn depths_are_found_behind_the_picture() {
+        let black = [("R", 0.0), ("G", 0.0), ("B", 0.0)];
+        let coloured = [("R", 0.1), ("G", 0.2), ("B", 0.3)];
+        let grey = [("R", 5.0), ("G", 5.0), ("B", 5.0)];
+        for parts in [
+            [("rgba", &black[..]), ("deep", &[("Z", 5.0)][..])],
+            [("beauty", &coloured), ("Depth", &grey)],
+            [
+                ("beauty", &coloured),
+                ("", &[("depth.V", 5.0), ("depth.R", 4.0)]),
+            ],
+        ] {
+            assert_eq!(decode(&layers(&parts)).unwrap().values, [5.0; 2]);
+        }
+    }
 }

@@ -117,14 +117,6 @@ impl StoredImage {
     /// [`Error::Option`] for a size of pixels that is not positive and finite, [`Error::OutOfMemory`].
     pub(super) fn finish(mut self, options: &DecodeOptions) -> Result<Decoded> {
         let mut assumptions = self.assumptions;
-        // Heights were assumed in the unit of the pixels' size in the file.
-        if options.pixel_size.is_some() && self.georeference.is_none() {
-            let count = assumptions.len();
-            assumptions.retain(|assumption| assumption.code != "heightUnit");
-            if assumptions.len() < count {
-                self.height_scale = None;
-            }
-        }
         // What is no data was measured, too.
         let are_measured = are_measured(&self.values);
         for missing in self.no_data.into_iter().chain(options.no_data) {

@@ -9,6 +9,12 @@ const MODEL_TYPE_KEY: u16 = 1024;
 /// Value of the key `GTModelTypeGeoKey` of the GeoTIFF format for degrees of longitude and latitude.
 const MODEL_TYPE_GEOGRAPHIC: u16 = 2;
 
+/// Number of the key `ProjectedCSTypeGeoKey` of the GeoTIFF format, the coordinate system of a map by its number in EPSG.
+const MAP_SYSTEM_KEY: u16 = 3072;
+
+/// Value of the key `ProjectedCSTypeGeoKey` of the GeoTIFF format for the Web Mercator map, whose coordinates are lengths on the equator.
+const WEB_MERCATOR: u16 = 3857;
+
 /// Number of the key `ProjLinearUnitsGeoKey` of the GeoTIFF format, the unit of map coordinates.
 const LINEAR_UNIT_KEY: u16 = 3076;
 
@@ -71,19 +77,30 @@ impl Georeference {
         metres(self.key(VERTICAL_UNIT_KEY).or_else(system)?)
     }
 
-    /// Latitude of the middle of an image of the given size, in degrees, if coordinates are degrees.
-    pub(super) fn latitude(&self, (width, height): (usize, usize)) -> f64 {
+    /// Latitude of the middle of an image of the given size, in degrees, if the unit of coordinates has other lengths elsewhere:
+    /// degrees, and the unit of a Web Mercator map.
+    pub(super) fn latitude(&self, (width, height): (usize, usize)) -> Option<f64> {
         let [.., d, e, f] = self.transformation;
-        d * width as f64 / 2.0 + e * height as f64 / 2.0 + f
+        let north = d * width as f64 / 2.0 + e * height as f64 / 2.0 + f;
+        if self.is_geographic() {
+            return Some(north);
+        }
+        let on_sphere = (north / ELLIPSOID_AXIS_METRES).sinh().atan();
+        (self.key(MAP_SYSTEM_KEY) == Some(WEB_MERCATOR)).then_some(on_sphere.to_degrees())
     }
 
-    /// Width and height of a pixel: in metres for degrees, else in the unit of map coordinates.
+    /// Width and height of a pixel: in metres where the latitude counts, else in the unit of map coordinates.
     pub(super) fn pixel_sides(&self, size: (usize, usize)) -> [f64; 2] {
         let [a, b, _, d, e, _] = self.transformation;
-        let [x, y] = if self.is_geographic() {
-            metres_per_degree(self.latitude(size))
-        } else {
-            [1.0, 1.0]
+        let [x, y] = match self.latitude(size) {
+            Some(latitude) if self.is_geographic() => metres_per_degree(latitude),
+            // The map is that of a sphere: its degree of longitude is that of the equator everywhere.
+            Some(latitude) => {
+                let [x, y] = metres_per_degree(latitude);
+                let degree = ELLIPSOID_AXIS_METRES.to_radians();
+                [x / degree, y / degree * latitude.to_radians().cos()]
+            }
+            None => [1.0, 1.0],
         };
         [(a * x).hypot(d * y), (b * x).hypot(e * y)]
     }
@@ -154,6 +171,21 @@ mod tests {
             (x - 78_847.0).abs() < 1.0 && (y - 111_132.0).abs() < 1.0,
             "{x} {y}"
         );
+    }
+
+    #[test]
+    fn a_web_mercator_map_has_the_lengths_of_the_ground() {
+        // 60° N is 8,399,737.89 there (EPSG's Guidance Note 7-2), and a degree 55.800 km by 111.412 km on the ground.
+        let map = Georeference {
+            transformation: [10.0, 0.0, 0.0, 0.0, -10.0, 8_399_737.89],
+            keys: vec![1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 3857],
+            doubles: Vec::new(),
+            text: String::new(),
+        };
+        let [x, y] = map.pixel_sides((0, 0));
+        let degree = 111_319.491;
+        assert!((x - 10.0 * 55_800.0 / degree).abs() < 1e-3, "{x}");
+        assert!((y - 10.0 * 111_412.0 / (2.0 * degree)).abs() < 1e-3, "{y}");
     }
 
     #[test]

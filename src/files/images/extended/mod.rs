@@ -31,7 +31,7 @@ pub use tiff::write_tiff;
 pub fn decode(bytes: &[u8], format: Format, options: &DecodeOptions) -> Result<Decoded> {
     options.check(format)?;
     let stored = match format {
-        Format::Tiff => tiff::decode(bytes),
+        Format::Tiff => tiff::decode(bytes, options),
         Format::Exr => exr::decode(bytes),
         Format::Pfm => pfm::decode(bytes),
         Format::Pgm => pfm::decode_pgm(bytes),

@@ -15,6 +15,7 @@ use crate::files::Assumption;
 use crate::files::buffer::reserve;
 use crate::files::failure::{check_length, damaged, unsupported};
 use crate::files::image_format::Format;
+use crate::files::images::decode_options::DecodeOptions;
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::georeference::Georeference;
 use crate::files::images::grey::{Channels, grey};
@@ -25,7 +26,7 @@ use crate::heights::heightfield::HeightImage;
 /// Maximum memory that the TIFF decoder itself may allocate, in bytes: a compressed strip, and the values of a tag.
 const MAX_DECODER_BYTES: usize = 1 << 28;
 
-pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
+pub(super) fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<StoredImage> {
     let mut file = open(bytes, MAX_DECODER_BYTES)?;
     let (width, height) = file.dimensions().map_err(failed)?;
     let stored = (width as usize, height as usize);
@@ -52,7 +53,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         return Err(damaged(Format::Tiff, "its sizes contradict each other"));
     }
     check_length(Format::Tiff, bytes, needed)?;
-    let about = tiff_tags::read(&mut file, stored, kind)?;
+    let about = tiff_tags::read(&mut file, stored, kind, options)?;
 
     let mut raw = try_filled("TIFF image", needed, 0u8)?;
     file.read_image_bytes(&mut raw).map_err(failed)?;
@@ -205,7 +206,6 @@ mod tests {
     use ::tiff::tags::ResolutionUnit;
 
     use super::*;
-    use crate::files::images::DecodeOptions;
 
     /// A file of 3 × 3 grey pixels for each kind of image, as the tag `NewSubfileType` numbers it.
     fn images(kinds: &[u32]) -> Vec<u8> {
@@ -230,7 +230,7 @@ mod tests {
         // A relief of 0.01, beside which pixels 1 wide are a slab.
         let heights: Vec<f32> = (0..24).map(|i| 0.001 * i as f32).collect();
         image.write_data(&heights).unwrap();
-        let stored = decode(&file.into_inner()).unwrap();
+        let stored = decode(&file.into_inner(), &DecodeOptions::default()).unwrap();
         assert_eq!(
             (stored.sides, stored.unit, stored.aspect),
             (None, None, 2.0)
@@ -253,7 +253,7 @@ mod tests {
             .write_tag(Tag::ImageDescription, described)
             .unwrap();
         image.write_data(&[1, 2]).unwrap();
-        let stored = decode(&file.into_inner()).unwrap();
+        let stored = decode(&file.into_inner(), &DecodeOptions::default()).unwrap();
         let [x, y] = stored.sides.unwrap();
         assert!(
             (x - 2.5e-4).abs() < 1e-12 && (y - 2.5e-4).abs() < 1e-12,
@@ -264,7 +264,11 @@ mod tests {
 
     #[test]
     fn heights_have_the_unit_of_the_pixels_which_is_told() {
-        let read = |description: &str| {
+        let read = |description: &str, pixel_size: Option<f64>| {
+            let options = DecodeOptions {
+                pixel_size,
+                ..DecodeOptions::default()
+            };
             let mut file = Cursor::new(Vec::new());
             let mut encoder = TiffEncoder::new(&mut file).unwrap();
             let mut image = encoder.new_image::<colortype::Gray32Float>(8, 3).unwrap();
@@ -273,26 +277,30 @@ mod tests {
             tags.write_tag(Tag::ImageDescription, description).unwrap();
             let heights: Vec<f32> = (0..24).map(|i| i as f32).collect();
             image.write_data(&heights).unwrap();
-            let stored = decode(&file.into_inner()).unwrap();
-            let read = stored.finish(&DecodeOptions::default()).unwrap();
+            let stored = decode(&file.into_inner(), &options).unwrap();
+            let read = stored.finish(&options).unwrap();
             let told = read.assumptions.iter().map(|one| one.words.clone());
             (read.pixel_size, read.height_scale, told.collect::<Vec<_>>())
         };
-        let (size, scale, told) = read("a scan");
+        let (size, scale, told) = read("a scan", None);
         assert!((size - 0.1).abs() < 1e-12 && scale == 1.0, "{size} {scale}");
         assert_eq!(told, ["heights are in millimetres"]);
-        let (size, scale, told) = read("ImageJ=1.53\nunit=um\n");
+        let (size, scale, told) = read("ImageJ=1.53\nunit=um\n", None);
         assert!((size - 1e-3 / 254.0).abs() < 1e-12, "{size}");
         assert_eq!(
             (scale, &told[0][..]),
             (1e-3, "heights are in the unit of the pixels' size")
         );
+        // Pixels of another size have another unit, too.
+        let (size, scale, told) = read("ImageJ=1.53\nunit=um\n", Some(0.5));
+        assert_eq!((size, scale, told.len()), (0.5, 1.0, 1));
+        assert!(told[0].contains("which was given"), "{}", told[0]);
     }
 
     #[test]
     fn a_reduced_first_image_is_that_of_a_raw_photo() {
         // As in DNG and NEF, whose full image lies in a directory below.
-        let error = decode(&images(&[1])).unwrap_err();
+        let error = decode(&images(&[1]), &DecodeOptions::default()).unwrap_err();
         assert_eq!(error.code(), "UNSUPPORTED");
         assert!(error.to_string().contains("raw photo"), "{error}");
     }
@@ -300,7 +308,7 @@ mod tests {
     #[test]
     fn the_first_of_several_images_is_said_but_no_overview() {
         let told = |kinds: &[u32]| {
-            let image = decode(&images(kinds)).unwrap();
+            let image = decode(&images(kinds), &DecodeOptions::default()).unwrap();
             image.assumptions.iter().any(|one| one.code == "firstImage")
         };
         assert!(!told(&[0]));

@@ -8,6 +8,7 @@ use super::tiff_file::{File, failed};
 use crate::error::Result;
 use crate::files::failure::{damaged, unsupported};
 use crate::files::image_format::Format;
+use crate::files::images::decode_options::DecodeOptions;
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::georeference::Georeference;
 use crate::files::number_type::NumberType;
@@ -61,6 +62,7 @@ pub(super) fn read(
     file: &mut File,
     size: (usize, usize),
     number_type: NumberType,
+    options: &DecodeOptions,
 ) -> Result<PixelTags> {
     let georeference = georeference(file)?;
     let mut assumptions = Vec::new();
@@ -76,7 +78,7 @@ pub(super) fn read(
             let resolution = resolution_sides(file)?;
             own_unit = resolution
                 .map(|(_, unit)| unit)
-                .filter(|_| number_type.is_float());
+                .filter(|_| number_type.is_float() && options.pixel_size.is_none());
             resolution
                 .map(|(sides, _)| (sides, Unit::Millimetre))
                 .unzip()
@@ -209,10 +211,13 @@ pub(super) fn map_sides(
         let reason = format!("its pixels are {x} wide and {y} high, no sound numbers");
         return Err(damaged(Format::Tiff, reason));
     }
-    if map.is_geographic() {
-        let latitude = map.latitude(size);
-        let words = format!("degrees are metres at the latitude {latitude:.4} of the middle");
-        assumptions.push(Assumption::new("degrees", words, "pixelSize"));
+    if let Some(latitude) = map.latitude(size) {
+        let (code, what) = match map.is_geographic() {
+            true => ("degrees", "degrees"),
+            false => ("webMercator", "lengths on the Web Mercator map"),
+        };
+        let words = format!("{what} are metres at the latitude {latitude:.4} of the middle");
+        assumptions.push(Assumption::new(code, words, "pixelSize"));
         return Ok((sides, Some(Unit::Metre)));
     }
     // Without a coordinate system nothing is known of the unit.

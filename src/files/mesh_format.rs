@@ -64,7 +64,7 @@ impl MeshFormat {
             return contains(bytes, b".model").then_some(MeshFormat::ThreeMf);
         }
         if let Some(kinds) = first.strip_suffix(b"OFF")
-            && ["", "C", "N", "CN", "ST", "STC", "STN", "STCN"]
+            && ["", "C", "N", "CN", "NC", "ST", "STC", "STN", "STCN"]
                 .contains(&str::from_utf8(kinds).unwrap_or("?"))
         {
             return Some(MeshFormat::Off);

@@ -93,6 +93,32 @@ fn off_with_colours_and_normals() {
     let colored = format!("CNOFF 3 1 0\n{rows}3 0 1 2 9 9 9\n");
     let colors = read(&colored).mesh.colors().unwrap()[0];
     assert_eq!(colors, [1.0, 0.0, 0.0]);
+    // As MeshLab writes it: colours before normals.
+    let rows = "0 0 0  0 255 0 255  0 0 1\n9 0 0  0 255 0 255  0 0 1\n9 9 0  0 255 0 255  0 0 1\n";
+    let swapped = read(&format!("NCOFF\n3 1 0\n{rows}3 0 1 2\n"));
+    assert_eq!(swapped.mesh.colors().unwrap()[2], [0.0, 1.0, 0.0]);
+}
+
+#[test]
+fn obj_colours_may_go_up_to_255() {
+    let colors = |last: &str| {
+        let text = format!("v 0 0 0 255 0 51\nv 1 0 0 0 0 0\nv 0 1 0 {last}\nf 1 2 3\n");
+        read(&text).mesh.colors().unwrap().to_vec()
+    };
+    assert_eq!(colors("0 0 1")[0], [1.0, 0.0, 0.2]);
+    // Bright ones are no bytes.
+    assert_eq!(colors("0 0 1.5")[0], [255.0, 0.0, 51.0]);
+}
+
+#[test]
+fn a_file_that_is_much_longer_than_an_stl_file_says_is_none() {
+    let mut bytes = vec![7; 84 + 2 * 50];
+    bytes[80..84].copy_from_slice(&2u32.to_le_bytes());
+    let code = |bytes: &[u8]| read_mesh(bytes, None).map_err(|error| error.code());
+    bytes.extend([0; 10]);
+    assert!(code(&bytes).is_ok());
+    bytes.extend([0; 90]);
+    assert_eq!(code(&bytes), Err("UNSUPPORTED"));
 }
 
 /// Area of each triangle of a mesh, below 0 where it faces downwards.

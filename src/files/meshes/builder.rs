@@ -179,6 +179,17 @@ impl MeshBuilder {
     }
 }
 
+/// Brings colours from 0 to 255 to those from 0 to 1, if all are whole numbers and some are more than 1.
+pub(super) fn scale_levels<'a>(colors: impl Iterator<Item = &'a mut [f32; 3]>) {
+    let colors: Vec<_> = colors.collect();
+    let components = || colors.iter().flat_map(|color| color.iter());
+    if components().all(|v| v.fract() == 0.0) && components().any(|v| *v > 1.0) {
+        colors
+            .into_iter()
+            .for_each(|color| *color = color.map(|v| v / 255.0));
+    }
+}
+
 fn push<T>(list: &mut Vec<T>, value: T, limit: usize) -> Result<()> {
     if list.len() >= limit {
         return Err(Error::TooLarge {

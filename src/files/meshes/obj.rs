@@ -1,7 +1,7 @@
 //! Reads Wavefront OBJ meshes.
 
 use super::beside::Beside;
-use super::builder::{MeshBuilder, NO_TEXTURE};
+use super::builder::{MeshBuilder, NO_TEXTURE, scale_levels};
 use super::corners::{CornerMaterial, Corners};
 use super::mtl::{self, Material};
 use super::rows::{numbers, point};
@@ -37,6 +37,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
         );
         return Err(unsupported("OBJ", reason));
     }
+    scale_levels(reader.corners.colors.iter_mut().flatten());
     if !has_faces {
         // Without faces its points are a cloud.
         for point in 0..reader.corners.positions.len() {

@@ -1,6 +1,6 @@
 //! Reads meshes in the Object File Format (OFF), in text.
 
-use super::builder::MeshBuilder;
+use super::builder::{MeshBuilder, scale_levels};
 use super::rows::{numbers, point, whole};
 use crate::error::Result;
 use crate::files::failure::{damaged, unsupported};
@@ -38,8 +38,8 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
             "its header does not state the numbers of vertices and faces",
         ));
     };
-    // Normals come before colours, which are the last but for texture coordinates.
-    let before = if header.contains('N') { 3 } else { 0 };
+    // Normals come before colours, which are the last but for texture coordinates; MeshLab puts both the other way round.
+    let before = if header.contains("CN") { 3 } else { 0 };
     for _ in 0..vertices {
         let (row, line) = next()?;
         let (position, rest) = point("OFF", row, line.split_whitespace())?;
@@ -50,12 +50,7 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
             parts.colors.push([*r, *g, *b].map(|v| v as f32));
         }
     }
-    // Colours of whole numbers go up to 255.
-    if parts.colors.as_flattened().iter().any(|v| *v > 1.0) {
-        for color in &mut parts.colors {
-            *color = color.map(|v| v / 255.0);
-        }
-    }
+    scale_levels(parts.colors.iter_mut());
     for _ in 0..faces {
         let (row, line) = next()?;
         let mut words = line.split_whitespace();

@@ -18,10 +18,12 @@ use crate::scene::mesh::Mesh;
 /// Largest ratio of the length of a binary STL file by its header to the bytes that are there: of other files it is far larger.
 const MAX_STL_LENGTH_RATIO: usize = 64;
 
-/// Returns whether a file may be a binary STL file that is cut short, or that other data follow.
+/// Returns whether a file may be a binary STL file that is cut short, or that fewer bytes than a triangle follow.
 pub(super) fn may_be_stl(bytes: &[u8]) -> bool {
     stl_length(bytes).is_some_and(|length| {
-        length > STL_HEADER_BYTES && length / MAX_STL_LENGTH_RATIO < bytes.len()
+        length > STL_HEADER_BYTES
+            && length / MAX_STL_LENGTH_RATIO < bytes.len()
+            && bytes.len() < length + STL_TRIANGLE_BYTES
     })
 }
 

@@ -123,7 +123,7 @@ const FOREIGN_FORMATS: [(&str, &str, &[&[u8]]); 58] = [
     ("SVG", "it is a drawing, and has no heights", &[b"<svg"]),
     ("web page", "the download has failed or asks to log in: download the file itself", &[b"<html", b"<!DOCTYPE html", b"<!doctype html"]),
     ("pointer of Git LFS", "`git lfs pull` fetches the file itself", &[b"version https://git-lfs"]),
-    ("JSON", "a camera's file goes with depths, as `--intrinsics`", &[b"{"]),
+    ("JSON", "a camera's file is given beside its depths", &[b"{"]),
     ("archive", UNPACK_FIRST, &[b"\x1f\x8b", b"7z\xbc\xaf", b"Rar!", b"BZh", b"\xfd7zXZ", b"\x28\xb5\x2f\xfd"]),
 ];
 
@@ -178,7 +178,7 @@ pub(super) fn refused(bytes: &[u8], purpose: Purpose) -> Error {
     } else if let Some(image) = image {
         let advice = match purpose {
             #[cfg(feature = "images")]
-            Purpose::Photo => "it has heights, which `fit` and `info` take, and is no photo",
+            Purpose::Photo => "it has heights, and is no photo: read it as heights",
             _ if image == Format::Text => "it is a table of numbers: read it as heights",
             _ => "it is an image: read it as heights or as a photo",
         };
@@ -291,7 +291,9 @@ mod tests {
         );
         assert!(told(stl, Purpose::Photo).starts_with("STL: it is a mesh"));
         assert!(told(b"\xff\xd8\xff\xe0", Purpose::Mesh).starts_with("JPEG: it is an image"));
-        assert!(told(b"\x93NUMPY\x01\0", Purpose::Photo).contains("it has heights, which `fit`"));
+        assert!(
+            told(b"\x93NUMPY\x01\0", Purpose::Photo).contains("it has heights, and is no photo")
+        );
         assert!(
             told(b"Dear Sir or Madam,", Purpose::Mesh)
                 .ends_with("meshes are read from OBJ, PLY, STL, glTF, GLB, 3MF, OFF and XYZ")

@@ -27,8 +27,8 @@ const servedCache = async () => caches.open((await cacheNames())[0] ?? OWN_CACHE
 const listen = (name, act) => worker.addEventListener(name, (event) => act(/** @type {WorkerEvent} */ (event)));
 
 listen('install', (event) => {
-  // The browser's own cache may hold files of an older version, so it is bypassed.
-  event.waitUntil(caches.open(OWN_CACHE).then((cache) => cache.addAll(files.map((file) => new Request(file, { cache: 'reload' })))));
+  // The browser's own cache may hold files of an older version: the server is asked, and sends only those that have changed.
+  event.waitUntil(caches.open(OWN_CACHE).then((cache) => cache.addAll(files.map((file) => new Request(file, { cache: 'no-cache' })))));
 });
 listen('activate', (event) => event.waitUntil(deleteOtherCaches()));
 listen('message', (event) => {

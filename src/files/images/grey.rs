@@ -39,7 +39,7 @@ pub(super) fn grey(
 fn coloured(format: Format, pixel: usize, width: usize) -> Error {
     let reason = format!(
         "the pixel at row {}, column {} has a colour, from which no height follows; \
-         grey images are read (grey, or RGB and palettes with grey pixels only); a photo of a page is made flat by `dewarp`",
+         grey images are read (grey, or RGB and palettes with grey pixels only); read a photo of a page as a photo",
         pixel / width,
         pixel % width
     );

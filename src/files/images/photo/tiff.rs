@@ -30,8 +30,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
         DecodingResult::U8(samples) => samples,
         DecodingResult::U16(samples) => samples.iter().map(|v| (v >> 8) as u8).collect(),
         _ => {
-            let reason = "floats, signed integers or integers of more than 16 bits, which are no photo's; `fit` and `info` take \
-                          them as heights, and so does `dewarp` beside the photo that shows them (`--texture`)";
+            let reason = "floats, signed integers or integers of more than 16 bits, which are no photo's: read them as heights";
             return Err(unsupported(Format::Tiff, reason));
         }
     };

@@ -1,7 +1,7 @@
 //! Arcs of circles in lines of straight pieces, as CAD divides them.
 
 use super::curve::Curve;
-use crate::math::planar::{circle_through, distance};
+use crate::math::planar::{bounds, circle_through, distance, distance_to_segment};
 use crate::scene::polyhedron::MAX_BEND_STEP;
 
 /// Maximum distance of an arc's points from its circle, as a share of the radius.
@@ -13,8 +13,13 @@ const MIN_ARC_PIECES: usize = 4;
 /// Maximum angle, in radians, of a Bézier curve that stands for an arc: it is off by four millionths of the radius.
 const MAX_BEZIER_ANGLE: f64 = std::f64::consts::FRAC_PI_4;
 
+/// Largest distance of a point from a straight line that it counts to be on, as a share of the line's extent: some roundings of the
+/// numbers of 32 bits that an STL file has.
+const STRAIGHT_TOLERANCE_SHARE: f64 = 8.0 * f32::EPSILON as f64;
+
 /// Makes a curve of a line's straight pieces, with Bézier curves along the pieces that lie on a circle.
 pub(super) fn with_arcs(points: &[[f64; 2]]) -> Curve {
+    let points = &corners(points);
     let mut curve = Curve::through(&points[..1]);
     let mut start = 0;
     while start + 1 < points.len() {
@@ -30,6 +35,33 @@ pub(super) fn with_arcs(points: &[[f64; 2]]) -> Curve {
         }
     }
     curve
+}
+
+/// The points of a line at which it turns, and its ends.
+fn corners(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let [low, high] = bounds(points.iter());
+    let tolerance = STRAIGHT_TOLERANCE_SHARE * distance(low, high);
+    let is_on = |p: [f64; 2], ends: [[f64; 2]; 2]| distance_to_segment(p, ends) <= tolerance;
+    let mut out: Vec<[f64; 2]> = Vec::new();
+    for (k, point) in points.iter().enumerate() {
+        let next = points.get(k + 1);
+        let is_between =
+            |next: &[f64; 2]| out.last().is_some_and(|last| is_on(*point, [*last, *next]));
+        if !next.is_some_and(is_between) {
+            out.push(*point);
+        }
+    }
+    // A closed line may begin within a side.
+    if let [first, second, .., before, last] = out[..]
+        && out.len() > 3
+        && first == last
+        && is_on(first, [before, second])
+    {
+        out.remove(0);
+        let end = out.len() - 1;
+        out[end] = second;
+    }
+    out
 }
 
 /// Number of pieces, from the first point on, that lie on one circle, and its centre.
@@ -113,6 +145,26 @@ mod tests {
             "{centre:?} {radius}"
         );
         assert_eq!(with_arcs(&polygon(12)), Curve::through(&polygon(12)));
+    }
+
+    /// A rectangle with points along its sides and points that rounding has doubled, begun within a side.
+    #[test]
+    fn sides_have_two_ends() {
+        let line = [
+            [3.0, 0.0],
+            [9.0, 0.0],
+            [9.0, 2.0],
+            [9.0, 2.0000003],
+            [9.0, 1.9999998],
+            [9.0, 2.4],
+            [9.0, 5.0],
+            [0.0, 5.0],
+            [1e-16, 2.0],
+            [0.0, 0.0],
+            [3.0, 0.0],
+        ];
+        let sides = [[9.0, 0.0], [9.0, 5.0], [0.0, 5.0], [0.0, 0.0], [9.0, 0.0]];
+        assert_eq!(with_arcs(&line), Curve::through(&sides));
     }
 
     #[test]

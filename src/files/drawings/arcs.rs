@@ -5,6 +5,12 @@ use crate::drawing::{Curve, Piece};
 /// Maximum distance between a circular arc and the Bézier curve that it replaces, in millimetres.
 const ARC_TOLERANCE_MM: f64 = 0.01;
 
+/// Maximum distance of arcs from the one that they are joined to, in millimetres: a hundredth of what they may be off the curve.
+const JOINED_TOLERANCE_MM: f64 = 0.01 * ARC_TOLERANCE_MM;
+
+/// Quarter of the angle of half a circle, in radians.
+const HALF_CIRCLE_QUARTER: f64 = std::f64::consts::FRAC_PI_4 * (1.0 + 1e-9);
+
 /// Maximum number of times that a Bézier curve is halved to approximate it by arcs.
 const MAX_CURVE_HALVINGS: u32 = 8;
 
@@ -32,7 +38,42 @@ pub(super) fn arcs(curve: &Curve) -> Vec<Corner> {
         place: *place,
         bulge: 0.0,
     }));
+    joined(&out)
+}
+
+/// Makes one arc of neighbouring ones on the same circle, up to half a circle.
+fn joined(corners: &[Corner]) -> Vec<Corner> {
+    let mut out: Vec<Corner> = Vec::new();
+    for (k, corner) in corners.iter().enumerate() {
+        let whole = out.last().zip(corners.get(k + 1)).and_then(|(last, next)| {
+            let arcs = [(*last, corner.place), (*corner, next.place)];
+            let [quarter, other] = arcs.map(|(arc, _)| arc.bulge.atan());
+            let whole = Corner {
+                bulge: (quarter + other).tan(),
+                ..*last
+            };
+            let is_on = |place| from_arc(place, whole, next.place) <= JOINED_TOLERANCE_MM;
+            let is_one = quarter * other > 0.0
+                && (quarter + other).abs() <= HALF_CIRCLE_QUARTER
+                && is_on(corner.place)
+                && arcs.iter().all(|(arc, to)| is_on(middle(*arc, *to)));
+            is_one.then_some(whole)
+        });
+        match (whole, out.last_mut()) {
+            (Some(whole), Some(last)) => *last = whole,
+            _ => out.push(*corner),
+        }
+    }
     out
+}
+
+/// The point in the middle of an arc.
+fn middle(Corner { place: from, bulge }: Corner, to: [f64; 2]) -> [f64; 2] {
+    let chord = less(to, from);
+    [
+        0.5 * (from[0] + to[0]) + 0.5 * bulge * chord[1],
+        0.5 * (from[1] + to[1]) - 0.5 * bulge * chord[0],
+    ]
 }
 
 /// Approximates a part of a curve by two arcs that have its tangents at the ends and a common tangent where they
@@ -174,6 +215,34 @@ mod tests {
             }
         }
         out
+    }
+
+    /// A slot of 30 × 8 mm: two straight pieces and two halves of circles.
+    #[test]
+    fn an_arc_is_one_arc() {
+        let mut controls = vec![[11.0, -4.0]];
+        for (centre, from) in [(11.0, -90.0), (-11.0, 90.0)] {
+            for step in 0..4 {
+                // Bézier curves of 45°, whose arms are 4/3 tan(45°/4) long.
+                let [a, b] = [0, 1].map(|end| (from + 45.0 * f64::from(step + end)).to_radians());
+                let arm = 4.0 / 3.0 * (std::f64::consts::FRAC_PI_4 / 4.0).tan();
+                let at = |t: f64, arm: f64| {
+                    let (sin, cos) = t.sin_cos();
+                    [centre + 4.0 * (cos - arm * sin), 4.0 * (sin + arm * cos)]
+                };
+                controls.extend([at(a, arm), at(b, -arm), at(b, 0.0)]);
+            }
+            controls
+                .extend([1.0, -1.0, -3.0].map(|third| [third * centre / 3.0, 4.0 * centre / 11.0]));
+        }
+        let curve = serde_json::to_string(&controls).unwrap();
+        let curve: Curve = serde_json::from_str(&curve).unwrap();
+        let corners = arcs(&curve);
+        let bulges: Vec<f64> = corners.iter().map(|c| c.bulge).collect();
+        assert_eq!(bulges.len(), 5, "{corners:?}");
+        for (found, right) in bulges.iter().zip([1.0, 0.0, 1.0, 0.0, 0.0]) {
+            assert!((found - right).abs() < 1e-4, "{bulges:?}");
+        }
     }
 
     #[test]

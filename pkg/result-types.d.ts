@@ -144,9 +144,9 @@ export interface CylinderReport {
   /** Root mean square residual of the heights from the cylinder, in the heights' unit. */
   residual: number;
   /**
-   * Correlation of the residuals along the rulings, divided by that of the noise of depth images: about 1 if the
-   * residuals are noise alone. Up to 1.95 the verdict is a cylinder. NaN if there are too few heights to tell, with the
-   * verdict that it is none.
+   * Correlation of the residuals along the rulings, divided by that of noise as smooth as the heights have it: about 1
+   * if the residuals are noise alone. Up to 1.95 the verdict is a cylinder. NaN if there are too few heights to tell,
+   * or too few that are independent, with the verdict that it is none.
    */
   excess: number;
   /** Number of heights that the cylinder was fitted to. */
@@ -670,8 +670,8 @@ export interface LambdaChoice {
    */
   correlationLength: number;
   /**
-   * Whether the noise is correlated and larger than 3.5 % of the height range, as the shape of a terrain looks too, so
-   * that noise and shape cannot be told apart: σ and λ are uncertain.
+   * Whether the noise of heights that no camera has measured is correlated and larger than 3.5 % of the height range,
+   * as the shape of a terrain looks too, so that noise and shape cannot be told apart: σ and λ are uncertain.
    */
   ambiguous: boolean;
   /**

@@ -107,7 +107,10 @@ export interface Heightfield extends FitConditions {
   unit?: Unit | null;
   /** Axes of these coordinates in space; a written mesh is in the axes of space. Default: x, y and z. */
   frame?: Frame;
-  /** Camera that has measured the depths; a photo from the same place is registered to the surface by it. */
+  /**
+   * Camera that has measured the depths; a photo from the same place is registered to the surface by it. Such heights have noise:
+   * by default what is rough in them is smoothed, where it may be the shape of other heights.
+   */
   camera?: PhotoCamera;
   /** Red, green and blue of each vertex, from 0 to 1, for written meshes. */
   colors?: Float32Array;

@@ -49,6 +49,8 @@ pub struct Input {
     pub(crate) bridged: usize,
     /// Noise of the image that the heights were sampled from, if they were.
     pub(crate) pixel_noise: Option<PixelNoise>,
+    /// Whether a camera has measured the heights, so that they have noise.
+    pub(crate) is_measured: bool,
     /// Whether offsets of its rows and columns have been taken out as far as surfaces tell them from the shape.
     pub(crate) is_levelled: bool,
 }
@@ -66,6 +68,7 @@ impl Input {
             bridging: Bridging::default(),
             bridged: 0,
             pixel_noise: None,
+            is_measured: false,
             is_levelled: false,
         }
     }
@@ -141,6 +144,13 @@ impl Input {
         }
         self.confidence = confidence;
         Ok(self)
+    }
+
+    /// Says that a camera has measured the heights: what is rough in them is noise, however large it is. Of other heights, such as
+    /// those of a terrain or of a design, it may be their shape, to which a surface keeps that is chosen by default.
+    pub fn measured_by_camera(mut self) -> Self {
+        self.is_measured = true;
+        self
     }
 
     /// Sets constraints: heights that are met exactly (paper, Sec. 5.3); NaN is no constraint. A constraint replaces

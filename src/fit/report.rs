@@ -165,8 +165,8 @@ pub struct LambdaChoice {
     /// Correlation length of the noise, in the input's units: the standard deviation of the Gaussian blur that turns
     /// white noise into noise like it. 0 for noise that is independent from vertex to vertex.
     pub correlation_length: f64,
-    /// Whether the noise is correlated and larger than 3.5 % of the height range, as the shape of a terrain looks too, so
-    /// that noise and shape cannot be told apart: σ and λ are uncertain.
+    /// Whether the noise of heights that no camera has measured is correlated and larger than 3.5 % of the height range, as the
+    /// shape of a terrain looks too, so that noise and shape cannot be told apart: σ and λ are uncertain.
     pub ambiguous: bool,
     /// Number of times that the lattice's spacing has to be doubled, by averages of four heights, until the noise is
     /// independent from vertex to vertex; 0 for white noise.

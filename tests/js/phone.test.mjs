@@ -49,6 +49,17 @@ function seenAt(s, t) {
 /** The corners of what lies between two shares of both. @param {number} low @param {number} high */
 const cornersAt = (low, high) => [seenAt(low, low), seenAt(high, low), seenAt(high, high), seenAt(low, high)];
 
+test('what is rough in the heights of a camera is noise, and may be shape elsewhere', () => {
+  const { rows, cols, spacing } = seen;
+  const height = (/** @type {number} */ i) => 8 * spacing * Math.sin((3 * (i % cols)) / cols);
+  const noise = smoothNoise(cols, rows, 3, normal(5));
+  const field = { rows, cols, spacing, heights: noise.map((n, i) => height(i) + 1.2 * spacing * n) };
+  assert.equal(direct.fit(field).report.lambdaChoice?.ambiguous, true);
+  const choice = direct.fit({ ...field, camera: seen.camera }).report.lambdaChoice;
+  assert.equal(choice?.ambiguous, false);
+  assert.ok(Math.abs((choice?.sigma ?? 0) / (1.2 * spacing) - 1) < 0.3, String(choice?.sigma));
+});
+
 test('the photo lies where the camera has seen the surface', async () => {
   assert.deepEqual(seen.camera, { width, height, ...numbers });
   const surface = direct.fit(seen, { lambda: 'big' });

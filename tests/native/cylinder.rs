@@ -77,6 +77,36 @@ fn curled_and_folded_sheets_are_found_under_noise_and_more_exactly_than_by_the_e
     }
 }
 
+/// Noise that is smooth over nine vertices, as that of a phone's depths, is as correlated along the rulings as across them.
+#[test]
+fn smoother_noise_makes_no_other_shape() {
+    let truth = field(slanted(|t| 0.1 * (4.0 * t).sin()));
+    let cone = field(|x, y| 0.3 * (x - 0.5).hypot(y + 0.1));
+    for seed in 0..6 {
+        let report = *found(&with_noise(&truth, 0.008, 4, seed)).report();
+        assert_eq!(
+            report.verdict,
+            CylinderVerdict::Cylinder,
+            "{seed}: {report:?}"
+        );
+        let report = *found(&with_noise(&cone, 0.002, 4, seed)).report();
+        assert_eq!(report.verdict, CylinderVerdict::Other, "{seed}: {report:?}");
+    }
+}
+
+/// A narrow strip under smooth noise has too few independent heights for its tilt.
+#[test]
+fn few_independent_heights_do_not_tell() {
+    let truth = field(slanted(|t| 0.1 * (4.0 * t).sin()));
+    let noisy = with_noise(&truth, 0.008, 4, 1);
+    let strip: Vec<u8> = (0..SIDE * SIDE)
+        .map(|i| u8::from((i % SIDE) < 40))
+        .collect();
+    let report = *found(&noisy.masked(&strip).unwrap()).report();
+    assert_eq!(report.verdict, CylinderVerdict::Other);
+    assert!(report.excess.is_nan(), "{report:?}");
+}
+
 #[test]
 fn other_shapes_are_none() {
     let cone = field(|x, y| 0.3 * ((x - 0.5).hypot(y + 0.1)));

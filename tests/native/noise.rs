@@ -432,6 +432,13 @@ fn terrain_without_noise_is_not_flattened() {
         rms_difference(&truth, &surface) <= 1.02 * tolerance,
         "{choice:?}"
     );
+    assert!(choice.ambiguous, "{choice:?}");
+    // What a camera has measured has noise.
+    let measured = Input::new(truth).measured_by_camera();
+    let (_, report) = solve(measured, &Options::default());
+    let choice = report.lambda_choice.unwrap();
+    assert!(!choice.ambiguous, "{choice:?}");
+    assert_eq!(choice.tolerance, None, "{choice:?}");
 }
 
 /// The smallest λ within the distance is found: the surface is neither farther off nor much nearer.

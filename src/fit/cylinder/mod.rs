@@ -10,6 +10,7 @@ mod profile;
 mod residual_excess;
 
 use super::input::Input;
+use super::tuning::noise::Noise;
 use crate::error::{Error, Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 use profile::{Penalty, Profile, ProfileEquations};
@@ -45,9 +46,9 @@ pub struct CylinderReport {
     pub rulings: [f64; 3],
     /// Root mean square residual of the heights from the cylinder, in the heights' unit.
     pub residual: f64,
-    /// Correlation of the residuals along the rulings, divided by that of the noise of depth images: about 1 if the residuals are
-    /// noise alone. Up to 1.95 the verdict is a cylinder. NaN if there are too few heights to tell, with the verdict
-    /// that it is none.
+    /// Correlation of the residuals along the rulings, divided by that of noise as smooth as the heights have it: about 1 if the
+    /// residuals are noise alone. Up to 1.95 the verdict is a cylinder. NaN if there are too few heights to tell, or too few that
+    /// are independent, with the verdict that it is none.
     pub excess: f64,
     /// Number of heights that the cylinder was fitted to.
     pub vertices: usize,
@@ -172,7 +173,7 @@ impl ProfileAxes {
 ///
 /// The penalty of the profile is the one under which five sixths of the rulings predict the other sixth best; noise
 /// that is correlated over a few vertices does not matter to that. The surface is a cylinder if means of the residuals
-/// over long stretches of the rulings vary no more than short stretches let expect. Constraints and occlusions of the
+/// over long stretches of the rulings vary no more than short stretches and the smoothness of the noise let expect. Constraints and occlusions of the
 /// input are ignored. Costs `O(vertices)`, some hundred passes over at most 20 thousand of them.
 ///
 /// # Errors
@@ -221,7 +222,7 @@ pub fn fit_cylinder(input: impl Into<Input>) -> Result<Cylinder> {
         squares += point.weight * left(point).powi(2);
         weights += point.weight;
     }
-    let excess = residual_excess::residual_excess(points.iter().map(|point| {
+    let residuals = points.iter().map(|point| {
         let [across, along] = axes.place(point.at);
         residual_excess::FitResidual {
             across: across / axes.bins as f64,
@@ -229,7 +230,11 @@ pub fn fit_cylinder(input: impl Into<Input>) -> Result<Cylinder> {
             value: left(point),
             weight: point.weight,
         }
-    }));
+    });
+    let extent = [axes.bins as f64 * axes.unit, axes.last - axes.first];
+    let noise = Noise::from_input(&input)?;
+    let length = noise.map_or(0.0, |noise| noise.correlation_length);
+    let excess = residual_excess::residual_excess(residuals, extent, length);
     let mut heights = try_filled("cylinder", lattice.len(), f64::NAN)?;
     for (i, (out, height)) in heights.iter_mut().zip(input.field.heights()).enumerate() {
         if !height.is_nan() {

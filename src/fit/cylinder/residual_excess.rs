@@ -27,9 +27,13 @@ const CORRELATED_PARTS: usize = 12;
 /// Maximum distance, in parts, of two parts of the rulings that are tested for correlation.
 const MAX_LAG_PARTS: usize = 6;
 
-/// Product of the ratios that [`variance_ratio`] and [`correlation_ratio`] find for the noise of depth images, by which
-/// their product is divided: noise smoothed by a Gaussian of 2 pixels, on pages half as large as the image.
-const DEPTH_NOISE_PRODUCT: f64 = 4.7;
+/// Minimum product of the ratios that [`variance_ratio`] and [`correlation_ratio`] are expected to find for noise: that of noise of
+/// depth images, smoothed by a Gaussian of 2 pixels, on pages half as large as the image.
+const MIN_NOISE_PRODUCT: f64 = 4.7;
+
+/// Minimum extent of the heights, in correlation lengths of their noise: on narrower pages noise is taken for a tilt
+/// (`benches/verdicts.md`, Smooth noise).
+const MIN_EXTENT_LENGTHS: f64 = 14.0;
 
 /// Maximum excess of the residuals' correlation at which a surface counts as a cylinder. Chosen on the pages of
 /// `benches/README.md` and three more draws of their noise.
@@ -57,10 +61,20 @@ fn sum(blocks: &[BlockSum]) -> BlockSum {
 }
 
 /// Computes the excess of the residuals' correlation along the rulings over that of noise: about 1 for noise. It is the
-/// geometric mean of two tests' ratios: whether means over long stretches vary more than those over short ones and the
-/// number of heights let expect, and whether means over parts of the rulings are correlated. NaN if there are too few
-/// heights.
-pub(super) fn residual_excess(rest: impl Iterator<Item = FitResidual> + Clone) -> f64 {
+/// geometric mean of two tests' ratios, each to what is expected of noise with a correlation length: whether means over long
+/// stretches vary more than those over short ones and the number of heights let expect, and whether means over parts of the
+/// rulings are correlated. `extent` is that of the heights across and along the rulings. NaN if there are too few heights, or
+/// too few that are independent.
+pub(super) fn residual_excess(
+    rest: impl Iterator<Item = FitResidual> + Clone,
+    extent: [f64; 2],
+    correlation_length: f64,
+) -> f64 {
+    if extent[0].min(extent[1]) < MIN_EXTENT_LENGTHS * correlation_length {
+        return f64::NAN;
+    }
+    let block = (1.0 - 2.0 * END_SHARE) * extent[1] / BLOCKS_PER_STRIPE as f64;
+    let expected = noise_product(correlation_length / block).max(MIN_NOISE_PRODUCT);
     let blocks = block_sums(rest);
     let all: f64 = blocks.iter().flatten().map(|block| block[1]).sum();
     if blocks.iter().flatten().all(|block| block[0] == 0.0) {
@@ -70,7 +84,34 @@ pub(super) fn residual_excess(rest: impl Iterator<Item = FitResidual> + Clone) -
     let few = |blocks: usize| {
         MIN_WEIGHT_SHARE * all * blocks as f64 / (STRIPE_COUNT * BLOCKS_PER_STRIPE) as f64
     };
-    (variance_ratio(&blocks, few) * correlation_ratio(&blocks, few) / DEPTH_NOISE_PRODUCT).sqrt()
+    (variance_ratio(&blocks, few) * correlation_ratio(&blocks, few) / expected).sqrt()
+}
+
+/// Returns the product of the ratios that [`variance_ratio`] and [`correlation_ratio`] are expected to find for noise with a
+/// Gaussian covariance, whose correlation length is given in blocks.
+fn noise_product(correlation_length: f64) -> f64 {
+    let correlation = |apart: usize| match apart {
+        0 => 1.0,
+        apart => (-(0.5 * apart as f64 / correlation_length).powi(2)).exp(),
+    };
+    // Covariance of the sums over stretches of blocks whose beginnings are so far apart.
+    let covariance = |blocks: usize, apart: usize| -> f64 {
+        let pairs = (0..blocks).flat_map(|a| (0..blocks).map(move |b| (apart + b).abs_diff(a)));
+        pairs.map(correlation).sum()
+    };
+    let variance = |half: usize| (covariance(half, 0) - covariance(half, half)) / half as f64;
+    let stretches = LONG_HALF_BLOCKS.map(|half| (BLOCKS_PER_STRIPE / (2 * half)) as f64);
+    let long = LONG_HALF_BLOCKS.iter().zip(stretches);
+    let long = long
+        .map(|(half, count)| count * variance(*half))
+        .sum::<f64>();
+    let variances = long / stretches.iter().sum::<f64>() / variance(SHORT_HALF_BLOCKS);
+    let length = BLOCKS_PER_STRIPE / CORRELATED_PARTS;
+    let squared = |lag: usize| (covariance(length, lag * length) / covariance(length, 0)).powi(2);
+    let by_chance = 1.0 + 2.0 * (1..CORRELATED_PARTS).map(squared).sum::<f64>();
+    let pairs = |lag: usize| (STRIPE_COUNT * (CORRELATED_PARTS - lag)) as f64;
+    let found = (1..=MAX_LAG_PARTS).map(|lag| pairs(lag) * squared(lag) + by_chance);
+    variances * found.sum::<f64>() / MAX_LAG_PARTS as f64
 }
 
 /// Sums the residuals in each block of each stripe.

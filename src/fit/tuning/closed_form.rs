@@ -22,8 +22,8 @@ const WITHOUT_NOISE: Lambda = Lambda::Big;
 /// Minimum product `σ √A` of noise, as a share of the height range; what is less, smooth bends of a shape have, too.
 const MIN_NOISE_SHARE: f64 = 3e-4;
 
-/// Maximum standard deviation of smooth noise, as a share of the height range. What looks like larger noise may be the
-/// shape of a terrain, which is alike at every scale.
+/// Maximum standard deviation of smooth noise of heights that no camera has measured, as a share of the height range. What looks
+/// like larger noise may be the shape of a terrain, which is alike at every scale.
 const MAX_SMOOTH_NOISE_SHARE: f64 = 0.035;
 
 /// Root mean square distance that a surface may have from heights without noise, as a share of their range.
@@ -36,6 +36,8 @@ pub(crate) struct Known {
     pub noise: Option<Noise>,
     /// Difference between the highest and the lowest height.
     pub range: f64,
+    /// Whether a camera has measured the heights.
+    pub is_measured: bool,
 }
 
 impl Known {
@@ -48,6 +50,7 @@ impl Known {
         });
         Ok(Known {
             range: (high - low).max(0.0),
+            is_measured: input.is_measured,
             scale: options.normalization.factor(&input.field),
             noise: if wanted {
                 Noise::from_input(input)?
@@ -66,6 +69,7 @@ pub(crate) fn initial_options(
         noise,
         scale,
         range,
+        is_measured,
     }: Known,
 ) -> (Options, LambdaChoice, Option<Aim>) {
     let mut choice = LambdaChoice {
@@ -104,8 +108,9 @@ pub(crate) fn initial_options(
             WITHOUT_NOISE
         }
     };
-    let is_shape = noise
-        .is_some_and(|noise| noise.is_correlated() && noise.sigma > MAX_SMOOTH_NOISE_SHARE * range);
+    let is_shape = noise.is_some_and(|noise| {
+        noise.is_correlated() && !is_measured && noise.sigma > MAX_SMOOTH_NOISE_SHARE * range
+    });
     choice.ambiguous = is_shape;
     let tolerance = match options.tolerance {
         Some(tolerance) => {

@@ -18,6 +18,14 @@ const MAX_MISFIT: f64 = 0.065;
 /// Minimum number of discs of a scale, of those without a common vertex, whose median curvatures are used.
 const MIN_INDEPENDENT_DISCS: f64 = 5.5;
 
+/// Minimum number of scales that a covariance explains which does not explain the smallest discs: it has two parameters, and
+/// two more scales are to confirm it (`benches/verdicts.md`, Smooth noise).
+const MIN_LATE_SCALES: usize = 4;
+
+/// Maximum ratio of the curvatures across the rulings to those along them where a covariance does not explain the smallest discs:
+/// noise bends both ways, and terraces across their steps (`benches/verdicts.md`, Smooth noise).
+const MAX_ACROSS_RATIO: f64 = 2.0;
+
 /// Minimum ratio, or its inverse, of the second derivatives across rows and along them in the smallest discs at which noise is
 /// anisotropic, as that of scan lines is.
 const MIN_ANISOTROPY: f64 = 3.0;
@@ -57,9 +65,10 @@ impl CorrelatedNoise {
     /// Estimates the noise of heights from their curvatures at scales from small discs to large ones; `None` if a shape
     /// hides it.
     ///
-    /// A shape beside the noise adds to the curvatures of large discs. So the covariance counts that is fitted to the smallest
-    /// ones and explains most of them. Noise of scan lines bends across them at every scale, as a shape does, but not alike in
-    /// discs side by side: there it is measured in the direction in which it bends most.
+    /// A shape beside the noise adds to the curvatures of large discs, and rougher noise beside smooth noise, as rounding is, to
+    /// those of the smallest ones. So the covariance counts that explains the largest discs, with as many smaller ones as it can.
+    /// Noise of scan lines bends across them at every scale, as a shape does, but not alike in discs side by side: there it is
+    /// measured in the direction in which it bends most.
     pub(super) fn from_scales(scales: &[CurvatureScale], discs: &[Disc]) -> Option<Self> {
         let mut scales = scales.to_vec();
         let is_anisotropic = scales.first().is_some_and(is_anisotropic);
@@ -73,9 +82,17 @@ impl CorrelatedNoise {
                 && scale.white_equivalent > 0.0
         };
         let noisy = scales.iter().take_while(is_noise).count();
-        let found = (2..=noisy)
-            .map(|count| Covariance::fit(&scales[..count], discs))
-            .rfind(|covariance| covariance.misfit < MAX_MISFIT)?;
+        let bends_both_ways = |scale: &CurvatureScale| {
+            scale.white_equivalent_across <= MAX_ACROSS_RATIO * scale.white_equivalent
+        };
+        let found = (2..=noisy).rev().find_map(|count| {
+            let starts = count.saturating_sub(MIN_LATE_SCALES) + 1;
+            (0..starts)
+                .map(|first| (first, &scales[first..count]))
+                .filter(|(first, late)| *first == 0 || late.iter().all(bends_both_ways))
+                .map(|(_, late)| Covariance::fit(late, discs))
+                .find(|covariance| covariance.misfit < MAX_MISFIT)
+        })?;
         Some(CorrelatedNoise {
             sigma: found.sigma,
             length: found.length,

@@ -324,6 +324,28 @@ mod tests {
         assert_eq!(found.correlation_length, 0.0);
     }
 
+    /// Depths in whole millimetres, on a lattice finer than the camera's pixels: the rounding is smooth over a pixel, and hides
+    /// in the smallest discs the noise that is smooth over several.
+    #[test]
+    fn smooth_noise_is_seen_behind_less_smooth_noise() {
+        for (blur, rough, seed) in [(4.0, 0.1, 8), (4.0, 0.06, 11), (4.0, 0.06, 12)] {
+            let noise = blurred(seed, [blur; 2]);
+            let rough_noise = blurred(seed + 50, [1.0; 2]);
+            let both: Vec<f64> = (noise.iter().zip(&rough_noise))
+                .map(|(smooth, rounding)| smooth + rough * rounding)
+                .collect();
+            let found = Noise::from_input(&roof(1e-2, &both).into())
+                .unwrap()
+                .unwrap();
+            let length = found.correlation_length / 0.01;
+            assert!(
+                (0.5..2.0).contains(&(found.sigma / 1e-2)),
+                "{blur} {found:?}"
+            );
+            assert!((0.5..2.0).contains(&(length / blur)), "{blur} {found:?}");
+        }
+    }
+
     /// Smooth bends are no noise, whether they stand alone or behind small noise.
     #[test]
     fn shapes_are_no_noise() {

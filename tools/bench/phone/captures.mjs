@@ -74,9 +74,10 @@ function scaled(corners, factor) {
  * The same capture for a number each time.
  * @param {number} number
  * @param {Camera} photoCamera
+ * @param {boolean} [isLidar] whether the noise is that of a phone's LiDAR, and the crop roughly along the outline
  * @returns {Capture}
  */
-export function capture(number, photoCamera) {
+export function capture(number, photoCamera, isLidar = false) {
   const chance = uniform(Math.imul(number + 1, 2654435761));
   // The first numbers of neighbouring seeds are alike.
   for (let k = 0; k < 20; k += 1) chance();
@@ -88,8 +89,10 @@ export function capture(number, photoCamera) {
     name: '', distance: 0.38 + 0.25 * chance(), tilt: 30 * chance(), yaw: 40 * (chance() - 0.5), roll: 20 * (chance() - 0.5),
     behind: one(/** @type {const} */ (['wall', 'table'])),
   };
-  const [noise, smooth] = [one([0.5, 1, 2, 3, 4]), one([0.7, 1, 1.5, 2, 3])];
-  const crop = one(Object.keys(crops));
+  const some = [one([0.5, 1, 2, 3, 4]), one([0.7, 1, 1.5, 2, 3])];
+  const any = one(Object.keys(crops));
+  const [noise, smooth] = isLidar ? [2 + 3 * chance(), 2 + 2 * chance()] : some;
+  const crop = isLidar ? 'outline, roughly' : any;
   const space = seenFrom(page, pose);
   const { width, height } = page;
   const corners = [[0, 0], [width, 0], [width, height], [0, height]].map(([u, v]) => project(photoCamera, space(u, v)));

@@ -23,6 +23,9 @@ struct ConditionsInput {
     occlusions: JsValue,
     #[serde(default, with = "preserve")]
     broken_edges: JsValue,
+    /// Camera that has measured the heights; its numbers do not matter here.
+    #[serde(default, with = "preserve")]
+    camera: JsValue,
 }
 
 pub enum Source {
@@ -53,6 +56,7 @@ pub struct LatticeSource {
     confidence: Option<Vec<f64>>,
     constraints: Option<Heightfield>,
     occlusions: Option<Occlusions>,
+    is_measured: bool,
 }
 
 impl Source {
@@ -113,6 +117,7 @@ impl Source {
             confidence,
             constraints,
             occlusions: union(vertices, edges)?,
+            is_measured: given(&known.camera).is_some(),
         }))
     }
 
@@ -199,6 +204,9 @@ impl ImageSource {
 impl LatticeSource {
     fn into_input(self, settings: &Settings) -> Result<Input> {
         let mut input = Input::new(self.heights).with_bridging(settings.bridging)?;
+        if self.is_measured {
+            input = input.measured_by_camera();
+        }
         if let Some(mask) = self.mask {
             input = input.masked(&mask)?;
         }

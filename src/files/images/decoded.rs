@@ -134,10 +134,11 @@ impl StoredImage {
             true => Unit::Metre,
             false => depths::unit(&self.values, self.number_type),
         };
-        let depths = match self.georeference {
-            Some(_) => DepthEvidence::None,
-            None if are_depths => DepthEvidence::Certain,
-            None => depths::evidence(
+        let is_on_map = (self.georeference.as_ref()).is_some_and(Georeference::has_system);
+        let depths = match is_on_map {
+            true => DepthEvidence::None,
+            false if are_depths => DepthEvidence::Certain,
+            false => depths::evidence(
                 &self.values,
                 self.size.0,
                 self.number_type,
@@ -164,7 +165,7 @@ impl StoredImage {
             }
             assumptions.retain(|one| one.option != Some("pixelSize"));
             self.sides = Some([side; 2]);
-            self.unit = self.unit.filter(|_| self.georeference.is_some());
+            self.unit = self.unit.filter(|_| is_on_map);
         }
         // Of pixels of unknown size, the longer side is 1.
         let of_unknown_size = [1.0, self.aspect].map(|side| side / self.aspect.max(1.0));

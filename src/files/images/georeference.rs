@@ -24,6 +24,11 @@ pub struct Georeference {
 }
 
 impl Georeference {
+    /// Whether a coordinate system is named: without one nothing is known of the unit.
+    pub(super) fn has_system(&self) -> bool {
+        !self.keys.is_empty()
+    }
+
     /// Value of a GeoTIFF key that is stored in the directory itself.
     pub(super) fn key(&self, wanted: u16) -> Option<u16> {
         // Four numbers each: key, where its value is (0: here), how many there are, the value.

@@ -76,7 +76,6 @@ pub(super) fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<StoredImag
         let rows: Vec<&[f64]> = image.values.chunks_exact(image.size.0).rev().collect();
         image.values = rows.concat();
     }
-    image.georeference = image.georeference.filter(|map| !map.keys.is_empty());
     if about.orientation >= 5 {
         image.sides = image.sides.map(|[x, y]| [y, x]);
         image.aspect = 1.0 / image.aspect;
@@ -188,9 +187,11 @@ fn write_map<W: Write + Seek, K: TiffKind>(
         ];
         tags.write_tag(Tag::ModelTransformationTag, rows.as_flattened())?;
     }
-    // Heights are in metres, whatever the keys say of those that were read.
-    tags.write_tag(tiff_tags::GDAL_METADATA, METRES_METADATA)?;
-    tags.write_tag(Tag::GeoKeyDirectoryTag, &map.keys[..])?;
+    if map.has_system() {
+        // Heights are in metres, whatever the keys say of those that were read.
+        tags.write_tag(tiff_tags::GDAL_METADATA, METRES_METADATA)?;
+        tags.write_tag(Tag::GeoKeyDirectoryTag, &map.keys[..])?;
+    }
     if !map.doubles.is_empty() {
         tags.write_tag(Tag::GeoDoubleParamsTag, &map.doubles[..])?;
     }
@@ -295,6 +296,27 @@ mod tests {
         let (size, scale, told) = read("ImageJ=1.53\nunit=um\n", Some(0.5));
         assert_eq!((size, scale, told.len()), (0.5, 1.0, 1));
         assert!(told[0].contains("which was given"), "{}", told[0]);
+    }
+
+    /// As a map without a coordinate system has it.
+    #[test]
+    fn a_tie_point_alone_is_kept() {
+        let map = Georeference {
+            transformation: [0.5, 0.0, 432_100.0, 0.0, -0.5, 5_412_300.0],
+            keys: Vec::new(),
+            doubles: Vec::new(),
+            text: String::new(),
+        };
+        let image = HeightImage::new(2, 2, vec![1.0, 2.0, 3.0, 4.0]).unwrap();
+        let image = image.with_pixel_size(0.5).unwrap();
+        let options = DecodeOptions::default();
+        let file = write_tiff(&image, Some(&map)).unwrap();
+        let read = decode(&file, &options).unwrap().finish(&options).unwrap();
+        assert_eq!(read.georeference, Some(map));
+        assert_eq!(
+            (read.pixel_size, read.height_scale, read.unit),
+            (0.5, 1.0, None)
+        );
     }
 
     #[test]

@@ -89,7 +89,7 @@ pub(super) fn read(
         _ => 1.0,
     };
     let (mut height_scale, mut offset) = gdal_heights(file)?;
-    if let Some(map) = georeference.as_ref().filter(|map| !map.keys.is_empty()) {
+    if let Some(map) = georeference.as_ref().filter(|map| map.has_system()) {
         let unit = height_unit(file, map)?;
         let of_map = map.linear_unit().filter(|unit| *unit != 1.0);
         if unit.is_none() {
@@ -221,7 +221,7 @@ pub(super) fn map_sides(
         return Ok((sides, Some(Unit::Metre)));
     }
     // Without a coordinate system nothing is known of the unit.
-    if map.keys.is_empty() {
+    if !map.has_system() {
         return Ok((sides, None));
     }
     let unit = map.linear_unit();

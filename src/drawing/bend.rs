@@ -20,6 +20,9 @@ const MAX_FOLD_BOW_SPACINGS: f64 = 0.5;
 /// Maximum distance of a fold's ends from the sheet's outline, in lattice spacings, for a bend allowance.
 const MAX_FOLD_END_GAP_SPACINGS: f64 = 1.0;
 
+/// Largest distance between a corner of the outline and the end of a fold there, as a share of the length of the fold that is bent.
+const END_ROUNDING: f64 = 1e-6;
+
 /// Applies the bend allowance to all folds of a sheet; an error if a fold is not a straight line from edge to edge.
 pub(super) fn apply_bend_allowance(
     number: usize,
@@ -218,7 +221,15 @@ impl Bend {
         let to = |at: &[f64; 2], side: usize| {
             let place = point(at);
             let share = (along.conj() * (place - self.ends[0])).re / along.norm_sqr();
-            let moved = self.moved(side, place, (0.0..=1.0).contains(&share));
+            // What ends at a corner of the outline goes with it.
+            let near = END_ROUNDING * along.norm();
+            let corners = self.sides[side].iter().map(|(corner, _)| *corner);
+            let moved = (corners.zip(self.moved_corners(side)))
+                .find(|(corner, _)| (corner - place).norm() <= near)
+                .map_or_else(
+                    || self.moved(side, place, (0.0..=1.0).contains(&share)),
+                    |(_, moved)| moved,
+                );
             [moved.re, moved.im]
         };
         for (number, outline) in sheet.outlines.iter_mut().enumerate() {
@@ -247,16 +258,28 @@ impl Bend {
         }
     }
 
-    /// Computes the part of the outline on one side of the fold after the bend allowance was applied. Only the segments
-    /// next to the fold's ends lie within the zone that bends.
-    fn arc(&self, side: usize) -> Vec<Corner> {
+    /// The first and the last corner of the outline on one side of the fold beyond the zone that bends.
+    fn beyond(&self, side: usize) -> [usize; 2] {
         let corners = &self.sides[side];
         let beyond = |(place, _): &Corner| self.away(side, *place) >= self.setback;
         let first = corners.iter().position(beyond).unwrap_or(0);
-        let last = corners.iter().rposition(beyond).unwrap_or(0);
+        [first, corners.iter().rposition(beyond).unwrap_or(0)]
+    }
+
+    /// The positions of the outline's corners on one side of the fold after the bend allowance was applied. Only the segments next to
+    /// the fold's ends lie within the zone that bends.
+    fn moved_corners(&self, side: usize) -> impl Iterator<Item = Point> {
+        let [first, last] = self.beyond(side);
+        let corners = self.sides[side].iter().enumerate();
+        corners.map(move |(k, (place, _))| self.moved(side, *place, k < first || k > last))
+    }
+
+    /// Computes the part of the outline on one side of the fold after the bend allowance was applied.
+    fn arc(&self, side: usize) -> Vec<Corner> {
+        let corners = &self.sides[side];
+        let [first, last] = self.beyond(side);
         let mut out = Vec::new();
-        for (k, (place, run)) in corners.iter().enumerate() {
-            let is_beside = k < first || k > last;
+        for (k, ((place, run), moved)) in corners.iter().zip(self.moved_corners(side)).enumerate() {
             if k > 0 && (k == first || k == last + 1) {
                 let (before, _) = corners[k - 1];
                 let [from, to] = [before, *place].map(|p| self.away(side, p));
@@ -266,7 +289,7 @@ impl Bend {
                     out.push((self.moved(side, edge, false), corners[k - 1].1));
                 }
             }
-            out.push((self.moved(side, *place, is_beside), *run));
+            out.push((moved, *run));
         }
         out
     }

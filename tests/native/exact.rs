@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::closed_meshes::cube;
+use crate::math::planar::distance_to_segment;
 use crate::native::common::Random;
 use developable::drawing::{Bending, Drawing, DrawingOptions, Label, LabelKind};
 use developable::files::drawings::{PdfOptions, TextureFile, write_dxf, write_pdf, write_svg};
@@ -448,6 +449,49 @@ fn a_solid_of_sheet_metal_has_the_blank_that_it_is_bent_from() {
     };
     let middle = 40.0 + 0.5 * FRAC_PI_2 * (3.0 + 0.44 * 2.0);
     assert!(line.points.iter().all(|p| (away(p) - middle).abs() < 1e-3));
+}
+
+/// Folds of a tray meet at its corners, where each is moved by the allowances of the others.
+#[test]
+fn bend_lines_of_a_tray_end_at_its_outline() {
+    let mut random = Random::new(5);
+    for _ in 0..20 {
+        let sides = [(); 3].map(|()| 60.0 + 30.0 * random.sample());
+        let (sin, cos) = (PI * random.sample()).sin_cos();
+        let corner = |k: usize| {
+            let [x, y, z] = [0, 1, 2].map(|axis| sides[axis] * (k >> axis & 1) as f64);
+            let [y, z] = [cos * y - sin * z, sin * y + cos * z];
+            [cos * x - sin * y, sin * x + cos * y, z]
+        };
+        let faces = [
+            [0, 2, 3, 1],
+            [0, 1, 5, 4],
+            [1, 3, 7, 5],
+            [3, 2, 6, 7],
+            [2, 0, 4, 6],
+        ];
+        let triangles = faces
+            .iter()
+            .flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
+        let tray = Mesh::new((0..8).map(corner).collect(), triangles.collect()).unwrap();
+        let pattern = pattern_exact(&tray, &NetOptions::default()).unwrap();
+        let options = DrawingOptions::default().bending(Bending::new(2.0));
+        for sheet in Drawing::new(&pattern.sheets, &options).unwrap().sheets {
+            let away = |p: [f64; 2]| {
+                let rings = sheet.cuts.iter();
+                let sides = rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+                let away = sides.map(|(a, b)| distance_to_segment(p, [*a, *b]));
+                away.fold(f64::INFINITY, f64::min)
+            };
+            for fold in &sheet.folds {
+                let [a, b] = [fold.points[0], fold.points[fold.points.len() - 1]];
+                let at = |share: f64| [0, 1].map(|k| a[k] + share * (b[k] - a[k]));
+                assert!(away(a).max(away(b)) < 1e-6, "{sides:?} {fold:?}");
+                let inside = away(at(0.005)).min(away(at(0.995)));
+                assert!(inside > 0.1, "{sides:?} {inside} {fold:?}");
+            }
+        }
+    }
 }
 
 #[test]

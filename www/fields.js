@@ -1,5 +1,6 @@
 /** Forms that are built from tables of their fields: labels, units, ranges and hints. What is wrong in a field is said beneath it. */
 import { make } from './dom.js';
+import { numberIn } from './format.js';
 
 /**
  * @typedef {object} Range numbers that a field takes
@@ -25,17 +26,11 @@ export const between = (least, most, words = `from ${least} to ${most}`) => ({ t
 /** @param {number} limit @param {string} [words] @returns {Range} */
 export const above = (limit, words = `above ${limit}`) => ({ takes: (value) => value > limit && value < Infinity, must: `a number ${words}` });
 
-/** The number of a text, which may have a decimal comma; NaN for another text. @param {string} text */
-function numberOf(text) {
-  const word = text.trim();
-  return word === '' ? NaN : Number(word.replace(/^([-−]?\d*),(\d+)/, '$1.$2').replace('−', '-'));
-}
-
 /** Returns the error message for the text of a field; empty if it is valid. @param {Field} field @param {string} text */
 function faultOf({ range, optional, wrong }, text) {
   if (wrong) return wrong(text);
   if (!range || (optional && text.trim() === '')) return '';
-  return range.takes(numberOf(text)) ? '' : `This must be ${range.must}.`;
+  return range.takes(numberIn(text)) ? '' : `This must be ${range.must}.`;
 }
 
 /**
@@ -85,7 +80,7 @@ export function fieldsOf(table, onChange = () => {}) {
     /** @param {N} name */
     text: (name) => fields[name].control.value,
     /** @param {N} name */
-    number: (name) => numberOf(fields[name].control.value),
+    number: (name) => numberIn(fields[name].control.value),
     /** @param {N} name */
     isChecked: (name) => /** @type {HTMLInputElement} */ (fields[name].control).checked,
     /** @param {N} name @param {string | number | boolean} value */

@@ -1,4 +1,4 @@
-/** Formats numbers and quantities for display. */
+/** Formats numbers and quantities for display, and reads numbers. */
 
 const NARROW_NO_BREAK_SPACE = '\u202f';
 const NO_BREAK_SPACE = '\u00a0';
@@ -44,6 +44,14 @@ function scientific(value, digits) {
   const short = String(Number(mantissa)).replace('-', '−');
   const power = superscript(Number(exponent));
   return short === '1' ? `10${power}` : `${short}${NARROW_NO_BREAK_SPACE}·${NARROW_NO_BREAK_SPACE}10${power}`;
+}
+
+/** The number of a text as `number` formats it, or as people type it, with a decimal comma, too; NaN for another text. @param {string} text */
+export function numberIn(text) {
+  const word = text.trim().replaceAll(NARROW_NO_BREAK_SPACE, '').replaceAll('−', '-').replace(/^(-?\d*),(\d+)/, '$1.$2');
+  const [, mantissa = '1', power] = word.match(/^(?:(.*?) ?[·×] ?)?10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)$/) ?? [];
+  const exponent = [...power ?? ''].map((digit) => (digit === '⁻' ? '-' : SUPERSCRIPT_DIGITS.indexOf(digit))).join('');
+  return word === '' ? NaN : Number(power ? `${mantissa}e${exponent}` : word);
 }
 
 /** An integer in superscript digits. @param {number} n */

@@ -1,11 +1,11 @@
 /** Which value of a file is no data, where the user says so. */
+import { numberIn } from './format.js';
 
 /** @typedef {number | 'none'} NoData value that is no data, or that none but NaN is */
 
 /** What a text gives as no data; nothing where it is no number. @param {string} text @returns {NoData | undefined} */
 export function noDataOf(text) {
-  const word = text.trim();
-  const value = word === '' ? NaN : Number(word.replace(',', '.'));
+  const [word, value] = [text.trim(), numberIn(text)];
   return word === 'none' ? word : Number.isNaN(value) ? undefined : value;
 }
 

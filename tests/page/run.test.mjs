@@ -163,7 +163,7 @@ pageTest('λ can be typed, and a wrong one is refused in place', async (page) =>
   assert.equal(await page.locator('#verdict').innerText(), before);
 });
 
-pageTest('a λ that is no number is said at its field, a decimal comma is one, and nothing typed is the automatic one', async (page) => {
+pageTest('a λ that is no number is said at its field, a decimal comma or a power is one, and nothing typed is the automatic one', async (page) => {
   const [field, wrong] = [page.getByLabel('λ as a number'), page.locator('#lambda-value-wrong')];
   for (const typed of ['abc', '0', '1e30']) {
     await field.fill(typed);
@@ -175,6 +175,9 @@ pageTest('a λ that is no number is said at its field, a decimal comma is one, a
   await runBy(page, () => field.fill('1,5e6').then(() => field.blur()));
   assert.equal(parsed(await reported(page, 'λ')), 1.5e6);
   assert.equal(await field.getAttribute('aria-invalid'), null);
+  // As the page itself writes it.
+  await runBy(page, () => field.fill('2.5\u202f·\u202f10⁶').then(() => field.blur()));
+  assert.equal(parsed(await reported(page, 'λ')), 2.5e6);
   await runBy(page, () => field.fill('').then(() => field.blur()));
   assert.equal(await page.locator('#lambda-auto').getAttribute('aria-pressed'), 'true');
 });

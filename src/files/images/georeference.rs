@@ -29,6 +29,12 @@ impl Georeference {
         !self.keys.is_empty()
     }
 
+    /// Whether the image lies elsewhere than at the origin, upright.
+    pub(super) fn has_place(&self) -> bool {
+        let [_, b, c, d, _, f] = self.transformation;
+        [b, c, d, f] != [0.0; 4]
+    }
+
     /// Value of a GeoTIFF key that is stored in the directory itself.
     pub(super) fn key(&self, wanted: u16) -> Option<u16> {
         // Four numbers each: key, where its value is (0: here), how many there are, the value.

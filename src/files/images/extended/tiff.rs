@@ -69,8 +69,9 @@ pub(super) fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<StoredImag
         (image.assumptions).push(Assumption::new("firstImage", words, None));
     }
     (image.values, image.size) = oriented(values, stored, about.orientation)?;
-    // What is turned after all lies elsewhere on the map.
-    image.georeference = image.georeference.filter(|_| about.orientation == 1);
+    // What is turned after all lies elsewhere on the map, and the size of pixels alone is no place.
+    image.georeference = (image.georeference)
+        .filter(|map| about.orientation == 1 && (map.has_system() || map.has_place()));
     if let Some(map) = image.georeference.as_mut().filter(|map| map.is_mirrored()) {
         map.reverse_rows(image.size.1);
         let rows: Vec<&[f64]> = image.values.chunks_exact(image.size.0).rev().collect();
@@ -317,6 +318,9 @@ mod tests {
             (read.pixel_size, read.height_scale, read.unit),
             (0.5, 1.0, None)
         );
+        let file = write_tiff(&image, None).unwrap();
+        let read = decode(&file, &options).unwrap().finish(&options).unwrap();
+        assert_eq!((read.pixel_size, read.georeference), (0.5, None));
     }
 
     #[test]

@@ -218,18 +218,22 @@ impl Bend {
             false => 1,
         };
         let along = self.ends[1] - self.ends[0];
+        let corners = [0, 1].map(|side| -> Vec<(Point, Point)> {
+            let before = self.sides[side].iter().map(|(corner, _)| *corner);
+            before.zip(self.moved_corners(side)).collect()
+        });
         let to = |at: &[f64; 2], side: usize| {
             let place = point(at);
             let share = (along.conj() * (place - self.ends[0])).re / along.norm_sqr();
             // What ends at a corner of the outline goes with it.
             let near = END_ROUNDING * along.norm();
-            let corners = self.sides[side].iter().map(|(corner, _)| *corner);
-            let moved = (corners.zip(self.moved_corners(side)))
-                .find(|(corner, _)| (corner - place).norm() <= near)
-                .map_or_else(
-                    || self.moved(side, place, (0.0..=1.0).contains(&share)),
-                    |(_, moved)| moved,
-                );
+            let corner = corners[side]
+                .iter()
+                .find(|(corner, _)| (corner - place).norm() <= near);
+            let moved = match corner {
+                Some((_, moved)) => *moved,
+                None => self.moved(side, place, (0.0..=1.0).contains(&share)),
+            };
             [moved.re, moved.im]
         };
         for (number, outline) in sheet.outlines.iter_mut().enumerate() {

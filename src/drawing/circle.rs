@@ -1,7 +1,8 @@
 //! Arcs of circles in lines of straight pieces, as CAD divides them.
 
 use super::curve::Curve;
-use crate::math::planar::{bounds, circle_through, distance, distance_to_segment};
+use crate::math::planar::{Point2, bounds, circle_through, distance, distance_to_segment};
+use crate::pattern::simplify_polyline;
 use crate::scene::polyhedron::MAX_BEND_STEP;
 
 /// Maximum distance of an arc's points from its circle, as a share of the radius.
@@ -42,15 +43,10 @@ fn corners(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let [low, high] = bounds(points.iter());
     let tolerance = STRAIGHT_TOLERANCE_SHARE * distance(low, high);
     let is_on = |p: [f64; 2], ends: [[f64; 2]; 2]| distance_to_segment(p, ends) <= tolerance;
-    let mut out: Vec<[f64; 2]> = Vec::new();
-    for (k, point) in points.iter().enumerate() {
-        let next = points.get(k + 1);
-        let is_between =
-            |next: &[f64; 2]| out.last().is_some_and(|last| is_on(*point, [*last, *next]));
-        if !next.is_some_and(is_between) {
-            out.push(*point);
-        }
-    }
+    let places: Vec<Point2> = points.iter().map(|[x, y]| Point2::new(*x, *y)).collect();
+    let mut out: Vec<[f64; 2]> = (simplify_polyline(&places, tolerance).iter())
+        .map(|place| [place.re, place.im])
+        .collect();
     // A closed line may begin within a side.
     if let [first, second, .., before, last] = out[..]
         && out.len() > 3

@@ -5,7 +5,7 @@ use crate::unroll::flat_triangle::Point;
 
 /// Simplifies a polyline: removes points so that all of them stay within a tolerance of the new line (Douglas and
 /// Peucker 1973).
-pub(super) fn simplify_polyline(points: &[Point], tolerance: f64) -> Vec<Point> {
+pub(crate) fn simplify_polyline(points: &[Point], tolerance: f64) -> Vec<Point> {
     if points.len() < 3 {
         return points.to_vec();
     }

@@ -62,6 +62,7 @@ pub use exact::{
 };
 pub use faces::Faces;
 pub use heightfield::pattern;
+pub(crate) use line::simplify_polyline;
 pub use meeting::Meeting;
 pub use mesh::{MeshPattern, pattern_mesh};
 pub use options::PatternOptions;

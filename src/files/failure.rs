@@ -2,9 +2,9 @@
 
 use crate::error::Error;
 
-/// Makes the error for a file that is damaged or not of the format that it was read as.
+/// Makes the error for a file that is damaged or not of the format that it was read as, which [`in_format`] names.
 #[cfg(any(feature = "formats", feature = "meshes"))]
-pub(super) fn damaged(format: impl Into<&'static str>, reason: impl ToString) -> Error {
+pub(super) fn damaged(reason: impl ToString) -> Error {
     /// Maximum number of characters that are kept of a decoder's error message: some messages quote the line, which may be
     /// the whole file.
     const MAX_MESSAGE_CHARACTERS: usize = 160;
@@ -15,8 +15,24 @@ pub(super) fn damaged(format: impl Into<&'static str>, reason: impl ToString) ->
         reason.truncate(end);
         reason.push('…');
     }
-    let format = format.into();
-    Error::Format { format, reason }
+    Error::Format { format: "", reason }
+}
+
+/// Makes the error for a file with contents that are not read; [`in_format`] names its format.
+#[cfg(any(feature = "formats", feature = "meshes"))]
+pub(super) fn not_read(reason: impl ToString) -> Error {
+    unsupported("", reason)
+}
+
+/// Returns a function that names the format in the errors of its reader, for `map_err`.
+#[cfg(any(feature = "formats", feature = "meshes"))]
+pub(super) fn in_format(name: impl Into<&'static str>) -> impl FnOnce(Error) -> Error {
+    |mut error| {
+        if let Error::Format { format, .. } | Error::Unsupported { format, .. } = &mut error {
+            *format = name.into();
+        }
+        error
+    }
 }
 
 /// Makes the error for a file with contents that are not read or written.
@@ -33,14 +49,10 @@ const MAX_COMPRESSION_RATIO: usize = 4096;
 
 /// Checks that decoded data of a given number of bytes can come from a file of a given length.
 #[cfg(feature = "formats")]
-pub(super) fn check_length(
-    format: impl Into<&'static str>,
-    file: &[u8],
-    needed: usize,
-) -> crate::Result<()> {
+pub(super) fn check_length(file: &[u8], needed: usize) -> crate::Result<()> {
     if needed / MAX_COMPRESSION_RATIO <= file.len() {
         return Ok(());
     }
     let reason = format!("{} bytes cannot hold that many pixels", file.len());
-    Err(damaged(format, reason))
+    Err(damaged(reason))
 }

@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 #[cfg(feature = "formats")]
-use super::failure::damaged;
+use super::failure::{damaged, in_format};
 use super::signature::begins;
 use super::text::decoded;
 use crate::error::{Error, Result};
@@ -100,7 +100,7 @@ impl Format {
             return Ok(self);
         }
         let name = found.map_or("a file of another format", Format::title);
-        Err(damaged(self, format!("it begins like {name}")))
+        Err(damaged(format!("it begins like {name}"))).map_err(in_format(self))
     }
 
     pub(super) fn title(self) -> &'static str {

@@ -4,7 +4,7 @@ use super::image_format::Format;
 use super::mesh_format::MeshFormat;
 use super::signature::{begins, contains};
 use crate::error::Error;
-use crate::files::failure::{damaged, unsupported};
+use crate::files::failure::{damaged, in_format, unsupported};
 
 /// The purpose for which a file is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -164,7 +164,7 @@ pub(super) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
 pub(super) fn refused(bytes: &[u8], purpose: Purpose) -> Error {
     let (wanted, formats) = purpose.words();
     if bytes.is_empty() {
-        return damaged(wanted, "the file is empty");
+        return in_format(wanted)(damaged("the file is empty"));
     }
     let image = image_format(bytes);
     let (name, advice) = if let Some(mesh) = mesh_format(bytes, image) {

@@ -1,7 +1,6 @@
 //! Tables of numbers in text: lines of equally many numbers, which are matrices or points.
 
 use super::failure::damaged;
-use super::image_format::Format;
 use super::text::decoded;
 use crate::error::{Result, checked_cells, try_filled};
 
@@ -62,7 +61,7 @@ impl Table {
                 Ok(row) if rows > 0 || !row.iter().all(|value| value.is_nan()) => row,
                 Err(_) if rows > 0 => {
                     let reason = format!("line {} is no row of numbers", k + 1);
-                    return Err(damaged(Format::Text, reason));
+                    return Err(damaged(reason));
                 }
                 _ => continue,
             };
@@ -83,7 +82,7 @@ impl Table {
                     k + 1,
                     row.len()
                 );
-                return Err(damaged(Format::Text, reason));
+                return Err(damaged(reason));
             }
             cols = row.len();
             rows += 1;
@@ -91,7 +90,7 @@ impl Table {
         }
         checked_cells("matrix", rows, cols)?;
         if rows == 0 {
-            return Err(damaged(Format::Text, "it has no numbers"));
+            return Err(damaged("it has no numbers"));
         }
         Ok(Table {
             values,
@@ -187,7 +186,7 @@ fn cells(line: &str, decimal_commas: bool) -> Result<Vec<f64>> {
     let cell = |cell: &str| match numbers(cell, decimal_commas)?[..] {
         [] => Ok(f64::NAN),
         [number] => Ok(number),
-        _ => Err(damaged(Format::Text, format!("`{cell}` is no number"))),
+        _ => Err(damaged(format!("`{cell}` is no number"))),
     };
     let row: Result<_> = line.split(divider).map(cell).collect();
     row.or_else(|_| numbers(line, decimal_commas))
@@ -200,7 +199,7 @@ pub(super) fn numbers(text: &str, decimal_commas: bool) -> Result<Vec<f64>> {
     let point = if decimal_commas { ',' } else { '.' };
     let number = |word: &str| {
         let number = word.replace(point, ".").parse();
-        number.map_err(|_| damaged(Format::Text, format!("`{word}` is no number")))
+        number.map_err(|_| damaged(format!("`{word}` is no number")))
     };
     let words = text.split(divides).filter(|word| !word.is_empty());
     words.map(number).collect()

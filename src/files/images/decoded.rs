@@ -65,7 +65,6 @@ impl Decoded {
 /// Contents of an image file as its reader found them, before anything is assumed.
 #[derive(Debug)]
 pub(super) struct StoredImage {
-    pub(super) format: Format,
     /// Columns and rows.
     pub(super) size: (usize, usize),
     /// The pixel values, row by row, top row first; NaN where the file says that there is no data.
@@ -88,14 +87,8 @@ pub(super) struct StoredImage {
 
 impl StoredImage {
     /// Creates an image of numbers of which the file says neither unit nor size.
-    pub(super) fn new(
-        format: Format,
-        size: (usize, usize),
-        values: Vec<f64>,
-        number_type: NumberType,
-    ) -> Self {
+    pub(super) fn new(size: (usize, usize), values: Vec<f64>, number_type: NumberType) -> Self {
         StoredImage {
-            format,
             size,
             values,
             number_type,
@@ -115,7 +108,7 @@ impl StoredImage {
     ///
     /// # Errors
     /// [`Error::Option`] for a size of pixels that is not positive and finite, [`Error::OutOfMemory`].
-    pub(super) fn finish(mut self, options: &DecodeOptions) -> Result<Decoded> {
+    pub(super) fn finish(mut self, format: Format, options: &DecodeOptions) -> Result<Decoded> {
         let mut assumptions = self.assumptions;
         // What is no data was measured, too.
         let are_measured = are_measured(&self.values);
@@ -129,7 +122,7 @@ impl StoredImage {
             ));
         }
         // COLMAP writes nothing but depths, whose unit no file says: taken for metres. On a map, there are heights.
-        let are_depths = self.format == Format::Colmap;
+        let are_depths = format == Format::Colmap;
         let depth_unit = match are_depths {
             true => Unit::Metre,
             false => depths::unit(&self.values, self.number_type),
@@ -207,7 +200,7 @@ impl StoredImage {
             values.iter_mut().for_each(|z| *z += offset);
         }
         Ok(Decoded {
-            format: self.format,
+            format,
             width,
             height,
             values,

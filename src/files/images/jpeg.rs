@@ -8,8 +8,7 @@ use zune_jpeg::errors::DecodeErrors;
 
 use super::photo::{PhotoFile, PhotoPixels, PhotoTags};
 use crate::error::{Error, Result, try_filled};
-use crate::files::failure::{check_length, damaged, unsupported};
-use crate::files::image_format::Format;
+use crate::files::failure::{check_length, damaged, not_read};
 
 /// Bytes of the marker that ends a JPEG file.
 const JPEG_END_MARKER: [u8; 2] = [0xff, 0xd9];
@@ -40,7 +39,7 @@ impl<'a> OpenedJpeg<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Result<Self> {
         // The decoder fills in missing data at the end.
         if !ends(bytes) {
-            return Err(damaged(Format::Jpeg, "it is cut short"));
+            return Err(damaged("it is cut short"));
         }
         let options = DecoderOptions::default()
             .set_strict_mode(true)
@@ -48,9 +47,7 @@ impl<'a> OpenedJpeg<'a> {
             .set_max_height(usize::from(u16::MAX));
         let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
         decoder.decode_headers().map_err(failed)?;
-        let info = decoder
-            .info()
-            .ok_or_else(|| damaged(Format::Jpeg, "it has no header"))?;
+        let info = decoder.info().ok_or_else(|| damaged("it has no header"))?;
         let size = (usize::from(info.width), usize::from(info.height));
         let len = size.0 * size.1;
         if len == 0 {
@@ -61,13 +58,12 @@ impl<'a> OpenedJpeg<'a> {
             // Of four inks (CMYK), the decoder makes colours.
             3 | 4 => (ColorSpace::RGB, 3),
             other => {
-                return Err(unsupported(
-                    Format::Jpeg,
-                    format!("pixels of {other} components; grey, RGB and CMYK are read"),
-                ));
+                return Err(not_read(format!(
+                    "pixels of {other} components; grey, RGB and CMYK are read"
+                )));
             }
         };
-        check_length(Format::Jpeg, bytes, stored.1 * len)?;
+        check_length(bytes, stored.1 * len)?;
         Ok(OpenedJpeg {
             decoder,
             options,
@@ -94,7 +90,7 @@ impl<'a> OpenedJpeg<'a> {
 }
 
 fn failed(error: DecodeErrors) -> Error {
-    damaged(Format::Jpeg, format!("{error:?}"))
+    damaged(format!("{error:?}"))
 }
 
 /// Returns whether a JPEG file is complete: it has the marker of the image's end, not counting pictures within its

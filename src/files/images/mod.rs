@@ -30,7 +30,7 @@ mod scale;
 mod square_pixels;
 
 use crate::error::Result;
-use crate::files::failure::unsupported;
+use crate::files::failure::{in_format, not_read, unsupported};
 
 pub use super::image_format::{FORMAT_NAMES, Format};
 pub use super::kind::{announced, format_name};
@@ -121,12 +121,13 @@ pub fn decode_basic(
         None => found.ok_or_else(|| unsupported("this file", reason))?,
     };
     let stored = match found {
-        Format::Png => png::decode(bytes)?,
-        Format::Npy => npy::decode(bytes)?,
-        other => return Err(unsupported(other, reason)),
+        Format::Png => png::decode(bytes),
+        Format::Npy => npy::decode(bytes),
+        _ => Err(not_read(reason)),
     };
+    let stored = stored.map_err(in_format(found))?;
     options.check(found)?;
-    stored.finish(options)
+    stored.finish(found, options)
 }
 
 #[cfg(test)]

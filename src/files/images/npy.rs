@@ -7,7 +7,7 @@ use super::orientation::{TRANSPOSED_ORIENTATION, oriented};
 use super::raw_pixels::raw_pixels;
 use crate::error::{Error, Result, check_shape};
 use crate::files::buffer::Buffer;
-use crate::files::failure::{damaged, unsupported};
+use crate::files::failure::{damaged, not_read};
 use crate::files::image_format::Format;
 use crate::files::number_type::NumberType;
 
@@ -20,23 +20,19 @@ const ALIGNMENT: usize = 64;
 pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let (header, stored) = Header::read(bytes)?;
     let (height, width) = header.rows_and_columns().ok_or_else(|| {
-        unsupported(
-            Format::Npy,
-            format!(
-                "an array of shape {:?}; only two-dimensional arrays (rows, columns) are read",
-                header.shape
-            ),
-        )
+        not_read(format!(
+            "an array of shape {:?}; only two-dimensional arrays (rows, columns) are read",
+            header.shape
+        ))
     })?;
     let descr = header.descr;
     if descr.starts_with('[') {
-        return Err(unsupported(
-            Format::Npy,
+        return Err(not_read(
             "an array of records; only arrays of plain numbers are read",
         ));
     }
     let number_type = header.number_type().ok_or_else(|| {
-        unsupported(Format::Npy, format!(
+        not_read(format!(
             "values of type {descr}; booleans, integers and floats of 16, 32 or 64 bits are read"
         ))
     })?;
@@ -46,19 +42,13 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     } else {
         (width, height)
     };
-    let mut values = raw_pixels(
-        Format::Npy,
-        size,
-        stored,
-        number_type,
-        descr.starts_with('>'),
-    )?;
+    let mut values = raw_pixels(size, stored, number_type, descr.starts_with('>'))?;
     if header.by_columns {
         (values, _) = oriented(values, size, TRANSPOSED_ORIENTATION)?;
     }
     Ok(StoredImage {
         height_scale: Some(1.0),
-        ..StoredImage::new(Format::Npy, (width, height), values, number_type)
+        ..StoredImage::new((width, height), values, number_type)
     })
 }
 
@@ -66,7 +56,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
 #[cfg(feature = "images")]
 pub(super) fn describe(bytes: &[u8]) -> Result<(Vec<u64>, String)> {
     if Format::detect(bytes) != Some(Format::Npy) {
-        return Err(damaged(Format::Npy, "it does not begin like an NPY file"));
+        return Err(damaged("it does not begin like an NPY file"));
     }
     let (header, _) = Header::read(bytes)?;
     let data_type = header
@@ -87,32 +77,29 @@ struct Header<'a> {
 impl<'a> Header<'a> {
     /// Reads the header at the start of a file. Returns it and the bytes after it.
     fn read(bytes: &'a [u8]) -> Result<(Self, &'a [u8])> {
-        let cut = || damaged(Format::Npy, "it is cut short within its header");
+        let cut = || damaged("it is cut short within its header");
         let at = |i: usize| bytes.get(i).copied().map(usize::from).ok_or_else(cut);
         let (begin, length) = match at(6)? {
             1 => (10, at(8)? | at(9)? << 8),
             2 | 3 => (12, at(8)? | at(9)? << 8 | at(10)? << 16 | at(11)? << 24),
             other => {
-                return Err(unsupported(
-                    Format::Npy,
-                    format!("version {other} of the format; versions 1 to 3 are read"),
-                ));
+                return Err(not_read(format!(
+                    "version {other} of the format; versions 1 to 3 are read"
+                )));
             }
         };
         if length > MAX_HEADER_BYTES {
-            return Err(damaged(
-                Format::Npy,
-                format!("its header claims {length} bytes, where {MAX_HEADER_BYTES} are the most"),
-            ));
+            return Err(damaged(format!(
+                "its header claims {length} bytes, where {MAX_HEADER_BYTES} are the most"
+            )));
         }
         let text = bytes.get(begin..begin + length).ok_or_else(cut)?;
-        let text =
-            str::from_utf8(text).map_err(|_| damaged(Format::Npy, "its header is no text"))?;
+        let text = str::from_utf8(text).map_err(|_| damaged("its header is no text"))?;
         let entry = |key: &str| {
             let (_, value) = text.split_once(&format!("'{key}':"))?;
             Some(value.trim_start())
         };
-        let missing = |key: &str| damaged(Format::Npy, format!("its header has no valid `{key}`"));
+        let missing = |key: &str| damaged(format!("its header has no valid `{key}`"));
 
         let descr = entry("descr").and_then(|value| match value.strip_prefix('\'') {
             Some(quoted) => quoted.split('\'').next(),
@@ -169,10 +156,7 @@ impl<'a> Header<'a> {
 fn extent(number: &str) -> Result<u64> {
     let digits = number.trim_end_matches('L');
     if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
-        return Err(damaged(
-            Format::Npy,
-            format!("its shape has the extent `{number}`"),
-        ));
+        return Err(damaged(format!("its shape has the extent `{number}`")));
     }
     digits.parse().map_err(|_| Error::TooLarge {
         what: "NPY array",

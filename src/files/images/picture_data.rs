@@ -7,7 +7,7 @@ use ::png::{ColorType, Transformations};
 use super::jpeg::OpenedJpeg;
 use super::png;
 use crate::error::Result;
-use crate::files::failure::unsupported;
+use crate::files::failure::{in_format, not_read, unsupported};
 use crate::files::image_format::Format;
 
 /// How the data of a picture are compressed.
@@ -40,8 +40,8 @@ impl<'a> PictureData<'a> {
     /// interlacing; [`Error::Format`](crate::Error::Format) for a damaged one.
     pub fn new(file: &'a [u8]) -> Result<Self> {
         match Format::detect(file) {
-            Some(Format::Png) => Self::from_png(file),
-            Some(Format::Jpeg) => Self::from_jpeg(file),
+            Some(Format::Png) => Self::from_png(file).map_err(in_format(Format::Png)),
+            Some(Format::Jpeg) => Self::from_jpeg(file).map_err(in_format(Format::Jpeg)),
             _ => {
                 let reason = "pictures of its pages must be JPEG or PNG files";
                 Err(unsupported("PDF", reason))
@@ -57,7 +57,7 @@ impl<'a> PictureData<'a> {
             (ColorType::Rgb, false) => 3,
             _ => {
                 let reason = "for a page of a PDF it must be grey or in colours, without transparency, palette and interlacing";
-                return Err(unsupported(Format::Png, reason));
+                return Err(not_read(reason));
             }
         };
         let mut data = Vec::new();
@@ -87,7 +87,7 @@ impl<'a> PictureData<'a> {
         let channels = opened.components;
         if !matches!(channels, 1 | 3) {
             let reason = "for a page of a PDF it must be grey or in red, green and blue";
-            return Err(unsupported(Format::Jpeg, reason));
+            return Err(not_read(reason));
         }
         Ok(PictureData {
             compression: Compression::Jpeg,

@@ -12,7 +12,6 @@ use super::grey::{Channels, grey};
 use crate::error::{Error, MAX_CELLS, Result, try_filled};
 use crate::files::buffer::Buffer;
 use crate::files::failure::{check_length, damaged};
-use crate::files::image_format::Format;
 use crate::files::number_type::NumberType;
 use crate::heights::heightfield::HeightImage;
 
@@ -89,7 +88,7 @@ pub(super) fn open(
             limit: max_pixels,
         });
     }
-    check_length(Format::Png, bytes, info.raw_bytes())?;
+    check_length(bytes, info.raw_bytes())?;
     Ok((decoder.read_info().map_err(failed)?, [width, height]))
 }
 
@@ -113,19 +112,16 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         ColorType::Rgba => (3, Some(3)),
         _ => (1, None),
     };
-    let values = grey(
-        Format::Png,
-        (width, height),
-        &Channels { colours, alpha },
-        |i, k| number_type.value(&samples[stride * i + size * k..], true),
-    )?;
+    let values = grey((width, height), &Channels { colours, alpha }, |i, k| {
+        number_type.value(&samples[stride * i + size * k..], true)
+    })?;
     let texts = &reader.info().uncompressed_latin1_text;
     Ok(StoredImage {
         sides: recorded(texts, PIXEL_SIZE, true)?.and_then(recorded_sides),
         no_data: recorded(texts, NO_DATA, false)?,
         height_scale: recorded(texts, HEIGHT_SCALE_KEYWORD, true)?,
         offset: recorded(texts, HEIGHT_OFFSET_KEYWORD, false)?.unwrap_or(0.0),
-        ..StoredImage::new(Format::Png, (width, height), values, number_type)
+        ..StoredImage::new((width, height), values, number_type)
     })
 }
 
@@ -138,17 +134,15 @@ fn recorded(chunks: &[TEXtChunk], keyword: &str, is_positive: bool) -> Result<Op
     let number = text.trim().parse().ok();
     let number = number.filter(|v: &f64| v.is_finite() && (*v > 0.0 || !is_positive));
     let reason = || format!("its text `{keyword}` is `{text}`, no sound number");
-    number
-        .map(Some)
-        .ok_or_else(|| damaged(Format::Png, reason()))
+    number.map(Some).ok_or_else(|| damaged(reason()))
 }
 
 pub(super) fn failed(error: DecodingError) -> Error {
     match error {
         DecodingError::IoError(cause) if cause.kind() == ErrorKind::UnexpectedEof => {
-            damaged(Format::Png, "it is cut short")
+            damaged("it is cut short")
         }
-        other => damaged(Format::Png, format!("its data were damaged ({other})")),
+        other => damaged(format!("its data were damaged ({other})")),
     }
 }
 

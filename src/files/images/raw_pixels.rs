@@ -2,7 +2,6 @@
 
 use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::files::failure::damaged;
-use crate::files::image_format::Format;
 use crate::files::number_type::NumberType;
 
 /// Reads the numbers of an image's pixels, of which each has one; what follows them is left out.
@@ -10,13 +9,12 @@ use crate::files::number_type::NumberType;
 /// # Errors
 /// [`Error::Empty`] without pixels, [`Error::TooLarge`], [`Error::Format`] for too few bytes, [`Error::OutOfMemory`].
 pub(super) fn raw_pixels(
-    format: Format,
     (width, height): (usize, usize),
     bytes: &[u8],
     number_type: NumberType,
     is_big_endian: bool,
 ) -> Result<Vec<f64>> {
-    let what = format.title();
+    let what = "image";
     let count = checked_cells(what, height, width)?;
     if count == 0 {
         return Err(Error::Empty { what });
@@ -28,7 +26,7 @@ pub(super) fn raw_pixels(
             "it is cut short: {width} × {height} numbers of type {} take {needed} bytes, {there} are there",
             number_type.name()
         );
-        return Err(damaged(format, reason));
+        return Err(damaged(reason));
     }
     let mut values = try_filled(what, count, 0.0)?;
     for (value, number) in values.iter_mut().zip(bytes.chunks_exact(size)) {

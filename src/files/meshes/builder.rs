@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::beside::Texture;
 use crate::error::{Error, MAX_CELLS, Result};
-use crate::files::failure::{damaged, unsupported};
+use crate::files::failure::{damaged, not_read};
 use crate::math::planar::Point2;
 use crate::math::polygon::triangulate;
 use crate::scene::mesh::Mesh;
@@ -122,7 +122,7 @@ impl MeshBuilder {
         }
         // Several names may refer to the same bytes.
         self.room = (self.room.checked_sub(bytes.len()))
-            .ok_or_else(|| damaged("textures", "together they are larger than their files"))?;
+            .ok_or_else(|| damaged("together its textures are larger than their files"))?;
         self.pictures.push(Texture {
             name: name.into(),
             bytes: bytes.into(),
@@ -135,27 +135,21 @@ impl MeshBuilder {
         self.textures.resize(self.triangles.len(), number);
     }
 
-    /// Finishes the mesh and returns it; errors name the file format `title`. Where there are vertices but no
+    /// Finishes the mesh and returns it. Where there are vertices but no
     /// triangles, it is a point cloud if files of the format can hold one. Colours and texture coordinates that only
     /// some of the vertices have are left out.
-    pub(super) fn into_mesh(mut self, title: &'static str, can_be_cloud: bool) -> Result<Mesh> {
+    pub(super) fn into_mesh(mut self, can_be_cloud: bool) -> Result<Mesh> {
         let (vertices, triangles) = (self.positions.len(), self.triangles.len());
-        let named = |error| match error {
-            Error::Format { reason, .. } => damaged(title, reason),
-            Error::Unsupported { reason, .. } => unsupported(title, reason),
-            other => other,
-        };
         if vertices == 0 && triangles == 0 {
             let reason = "there are neither faces nor points in it";
-            return Err(unsupported(title, reason));
+            return Err(not_read(reason));
         }
         let cloud = self.triangles.is_empty() && vertices > 0 && can_be_cloud;
         let mut mesh = if cloud {
             Mesh::cloud(self.positions)
         } else {
             Mesh::new(self.positions, self.triangles)
-        }
-        .map_err(named)?;
+        }?;
         if self.colors.len() == vertices
             && self
                 .colors

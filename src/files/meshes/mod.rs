@@ -28,6 +28,7 @@ use crate::math::polygon::MAX_POLYGON_CORNERS;
 use crate::scene::mesh::Mesh;
 
 use super::Assumption;
+use super::failure::in_format;
 use super::image_format::Format;
 use super::kind::{Purpose, foreign, refused};
 pub use super::mesh_format::MeshFormat;
@@ -86,21 +87,23 @@ pub fn read_mesh_beside(
     let beside = Beside::new(files);
     let mut stated = None;
     match format {
-        MeshFormat::Obj => obj::read(bytes, &beside, &mut parts)?,
-        MeshFormat::Ply => ply::read(bytes, &beside, &mut parts)?,
-        MeshFormat::Stl => stl::read(bytes, &mut parts)?,
+        MeshFormat::Obj => obj::read(bytes, &beside, &mut parts),
+        MeshFormat::Ply => ply::read(bytes, &beside, &mut parts),
+        MeshFormat::Stl => stl::read(bytes, &mut parts),
         MeshFormat::Gltf => {
-            gltf::read(bytes, &beside, &mut parts)?;
             stated = Some(FileUnit::new("m")?);
+            gltf::read(bytes, &beside, &mut parts)
         }
-        MeshFormat::ThreeMf => stated = Some(threemf::read(bytes, &mut parts)?),
-        MeshFormat::Off => off::read(bytes, &mut parts)?,
-        MeshFormat::Xyz => xyz::read(bytes, &mut parts)?,
+        MeshFormat::ThreeMf => threemf::read(bytes, &mut parts).map(|unit| stated = Some(unit)),
+        MeshFormat::Off => off::read(bytes, &mut parts),
+        MeshFormat::Xyz => xyz::read(bytes, &mut parts),
     }
+    .map_err(in_format(format.title()))?;
     let has_lines = parts.has_lines;
     let crossed = parts.crossed_polygons;
     let textures = std::mem::take(&mut parts.pictures);
-    let mesh = parts.into_mesh(format.title(), format != MeshFormat::Stl)?;
+    let mesh = parts.into_mesh(format != MeshFormat::Stl);
+    let mesh = mesh.map_err(in_format(format.title()))?;
     let points = (has_lines && mesh.is_cloud()).then(|| {
         let words =
             "the lines in it are left out, and their ends are a point cloud: it has no faces";

@@ -6,7 +6,7 @@ use super::corners::{CornerMaterial, Corners};
 use super::mtl::{self, Material};
 use super::rows::{numbers, point};
 use crate::error::Result;
-use crate::files::failure::{damaged, unsupported};
+use crate::files::failure::{damaged, not_read};
 use crate::files::text::{decoded, lines};
 
 /// Statements of curves and surfaces that are no meshes.
@@ -21,7 +21,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
         match words.next() {
             Some("v") => reader.vertex(row, words)?,
             Some("vt") => {
-                let numbers = numbers("OBJ", row, words.take(2))?;
+                let numbers = numbers(row, words.take(2))?;
                 uvs.push([0, 1].map(|k| numbers.get(k).copied().unwrap_or_default() as f32));
             }
             Some("f" | "fo") => has_faces = true,
@@ -35,7 +35,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
             "line {row} begins a free-form surface, and there are no faces; let a CAD program \
              save it as a mesh"
         );
-        return Err(unsupported("OBJ", reason));
+        return Err(not_read(reason));
     }
     scale_levels(reader.corners.colors.iter_mut().flatten());
     if !has_faces {
@@ -60,7 +60,7 @@ struct Reader {
 impl Reader {
     /// Reads a vertex: a position, perhaps its weight, and perhaps a colour.
     fn vertex<'a>(&mut self, row: usize, words: impl Iterator<Item = &'a str>) -> Result<()> {
-        let (position, rest) = point("OBJ", row, words)?;
+        let (position, rest) = point(row, words)?;
         self.corners.positions.push(position);
         let color = match rest[..] {
             [r, g, b] | [_, r, g, b] => Some([r, g, b].map(|v| v as f32)),
@@ -113,7 +113,7 @@ impl Reader {
                                 let reason = format!(
                                     "line {row} names the vertex {corner:?}, which is not there"
                                 );
-                                damaged("OBJ", reason)
+                                damaged(reason)
                             })?;
                         let uv = index(indices.next(), counts[1]);
                         let uv = uv.and_then(|i| uvs.get(i)).copied();

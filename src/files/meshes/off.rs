@@ -3,7 +3,7 @@
 use super::builder::{MeshBuilder, scale_levels};
 use super::rows::{numbers, point, whole};
 use crate::error::Result;
-use crate::files::failure::{damaged, unsupported};
+use crate::files::failure::{damaged, not_read};
 use crate::files::text::{decoded, lines};
 
 pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
@@ -14,13 +14,12 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
         .filter(|(_, line)| !line.is_empty());
     let mut next = || {
         rows.next()
-            .ok_or_else(|| damaged("OFF", "the file ends too early"))
+            .ok_or_else(|| damaged("the file ends too early"))
     };
     let (_, first) = next()?;
     let (header, rest) = first.split_once("OFF").unwrap_or(("", &first));
     if rest.contains("BINARY") {
-        return Err(unsupported(
-            "OFF",
+        return Err(not_read(
             "binary files are not read; save it as text, or as PLY",
         ));
     }
@@ -34,7 +33,6 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
         .collect();
     let [vertices, faces, ..] = counts[..] else {
         return Err(damaged(
-            "OFF",
             "its header does not state the numbers of vertices and faces",
         ));
     };
@@ -42,7 +40,7 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     let before = if header.contains("CN") { 3 } else { 0 };
     for _ in 0..vertices {
         let (row, line) = next()?;
-        let (position, rest) = point("OFF", row, line.split_whitespace())?;
+        let (position, rest) = point(row, line.split_whitespace())?;
         parts.position(position)?;
         if header.contains('C')
             && let [r, g, b, ..] = rest.get(before..).unwrap_or_default()
@@ -54,13 +52,13 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     for _ in 0..faces {
         let (row, line) = next()?;
         let mut words = line.split_whitespace();
-        let count = numbers("OFF", row, words.by_ref().take(1))?;
+        let count = numbers(row, words.by_ref().take(1))?;
         let count = count.first().map_or(0, |count| *count as usize);
-        let corners = numbers("OFF", row, words.take(count))?;
+        let corners = numbers(row, words.take(count))?;
         if corners.len() < count {
-            return Err(damaged("OFF", format!("line {row} has too few vertices")));
+            return Err(damaged(format!("line {row} has too few vertices")));
         }
-        let corners: Result<Vec<u32>> = corners.iter().map(|v| whole("OFF", *v)).collect();
+        let corners: Result<Vec<u32>> = corners.iter().map(|v| whole(*v)).collect();
         parts.polygon(&corners?)?;
     }
     Ok(())

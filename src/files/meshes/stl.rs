@@ -37,7 +37,7 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
             let length = bytes.len();
             let reason =
                 format!("the file of {length} bytes is too short for the triangles that it states");
-            damaged("STL", reason)
+            damaged(reason)
         })?;
     for triangle in triangles.as_chunks::<STL_TRIANGLE_BYTES>().0 {
         let start = parts.positions.len() as u32;
@@ -61,14 +61,14 @@ fn ascii(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
         if !first.eq_ignore_ascii_case("vertex") {
             continue;
         }
-        parts.position(point("STL", row, words.take(3))?.0)?;
+        parts.position(point(row, words.take(3))?.0)?;
         let end = parts.positions.len() as u32;
         if end.is_multiple_of(3) {
             parts.triangle([end - 3, end - 2, end - 1])?;
         }
     }
     if !ended || !parts.positions.len().is_multiple_of(3) {
-        return Err(damaged("STL", "the file ends within a solid"));
+        return Err(damaged("the file ends within a solid"));
     }
     Ok(())
 }

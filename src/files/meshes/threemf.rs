@@ -12,9 +12,6 @@ use super::unit::FileUnit;
 use crate::error::{Error, MAX_CELLS, Result};
 use crate::files::failure::damaged;
 
-/// Name of the format in error messages.
-const FORMAT_NAME: &str = "3MF";
-
 /// Maximum size of the text of a model, in bytes: about that of the largest mesh.
 const MAX_MODEL_BYTES: u64 = 64 * MAX_CELLS as u64;
 
@@ -32,13 +29,13 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<FileUnit> {
     let documents = (texts.iter())
         .map(|(name, text)| Ok((name.as_str(), Document::parse(text)?)))
         .collect::<std::result::Result<Vec<_>, roxmltree::Error>>()
-        .map_err(|error| damaged(FORMAT_NAME, error))?;
+        .map_err(damaged)?;
     let Some((path, main)) = documents.first() else {
-        return Err(damaged(FORMAT_NAME, "there is no model in the archive"));
+        return Err(damaged("there is no model in the archive"));
     };
     let root = main.root_element();
     let unit = FileUnit::new(root.attribute("unit").unwrap_or("millimeter"))
-        .map_err(|_| damaged(FORMAT_NAME, "the unit of its model is not known"))?;
+        .map_err(|_| damaged("the unit of its model is not known"))?;
     let objects = (documents.iter())
         .flat_map(|(path, document)| document.descendants().map(move |node| (*path, node)))
         .filter(|(_, node)| node.tag_name().name() == "object")
@@ -59,18 +56,17 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<FileUnit> {
 /// Returns the paths and texts of the models in the archive, first the one that is built: others, in folders below, have
 /// objects that it names.
 fn models(bytes: &[u8]) -> Result<Vec<(String, String)>> {
-    let damaged = |error: &dyn std::fmt::Display| damaged(FORMAT_NAME, error);
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error))?;
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(damaged)?;
     let mut names: Vec<String> = (archive.file_names())
         .filter(|name| name.to_ascii_lowercase().ends_with(".model"))
         .map(String::from)
         .collect();
     let mut left = MAX_MODEL_BYTES;
     let mut read = |name: String| {
-        let file = archive.by_name(&name).map_err(|error| damaged(&error))?;
+        let file = archive.by_name(&name).map_err(damaged)?;
         let mut text = String::new();
         let read = file.take(left + 1).read_to_string(&mut text);
-        let length = read.map_err(|error| damaged(&error))? as u64;
+        let length = read.map_err(damaged)? as u64;
         left = left.checked_sub(length).ok_or(Error::TooLarge {
             what: "mesh",
             requested: MAX_MODEL_BYTES as usize + 1,
@@ -116,11 +112,11 @@ impl<'a> Model<'a, '_> {
         depth: usize,
     ) -> Result<()> {
         if depth > MAX_COMPONENT_DEPTH {
-            return Err(damaged(FORMAT_NAME, "its components are within each other"));
+            return Err(damaged("its components are within each other"));
         }
         self.added += 1;
         if self.added > MAX_COMPONENTS {
-            return Err(damaged(FORMAT_NAME, "its components repeat too often"));
+            return Err(damaged("its components repeat too often"));
         }
         // The attribute of the extension for objects in further models.
         let mut attributes = item.attributes();
@@ -131,7 +127,7 @@ impl<'a> Model<'a, '_> {
             .attribute("objectid")
             .and_then(|id| self.objects.get(&(path, id)))
             .copied();
-        let object = object.ok_or_else(|| damaged(FORMAT_NAME, "an object is not there"))?;
+        let object = object.ok_or_else(|| damaged("an object is not there"))?;
         if object
             .attribute("type")
             .is_some_and(|kind| SUPPORT_TYPES.contains(&kind))
@@ -182,12 +178,7 @@ fn number<T: std::str::FromStr>(node: Node, name: &str) -> Result<T> {
     let value = node
         .attribute(name)
         .and_then(|text| text.trim().parse().ok());
-    value.ok_or_else(|| {
-        damaged(
-            FORMAT_NAME,
-            format!("a vertex or triangle has no number `{name}`"),
-        )
-    })
+    value.ok_or_else(|| damaged(format!("a vertex or triangle has no number `{name}`")))
 }
 
 /// Reads the transform of a build item or component: four rows of three numbers, by which a row (x, y, z, 1) is
@@ -200,8 +191,8 @@ fn transform(node: Node) -> Result<Matrix4<f64>> {
         .split_whitespace()
         .map_while(|word| word.parse().ok())
         .collect();
-    let rows: [f64; 12] = (numbers.try_into())
-        .map_err(|_| damaged(FORMAT_NAME, "a transform does not have twelve numbers"))?;
+    let rows: [f64; 12] =
+        (numbers.try_into()).map_err(|_| damaged("a transform does not have twelve numbers"))?;
     let mut matrix = Matrix4::identity();
     for (i, value) in rows.into_iter().enumerate() {
         matrix[(i % 3, i / 3)] = value;

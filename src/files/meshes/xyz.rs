@@ -12,13 +12,10 @@ const WHITE_LEVEL: f64 = 255.0;
 pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     let table = Table::read(&decoded(bytes))?;
     if table.cols < 3 {
-        return Err(damaged(
-            "XYZ",
-            format!(
-                "its lines have {} numbers, where x, y and z are three",
-                table.cols
-            ),
-        ));
+        return Err(damaged(format!(
+            "its lines have {} numbers, where x, y and z are three",
+            table.cols
+        )));
     }
     let lines = || table.values.chunks_exact(table.cols);
     let is_level = |value: &f64| value.fract() == 0.0 && (0.0..=WHITE_LEVEL).contains(value);

@@ -1,28 +1,25 @@
 //! Reads depth maps of COLMAP: `width&height&channels&`, then 32-bit floats, row by row, 0 where there is no depth.
 
 use crate::error::Result;
-use crate::files::failure::{damaged, unsupported};
-use crate::files::image_format::{Format, colmap_head};
+use crate::files::failure::{damaged, not_read};
+use crate::files::image_format::colmap_head;
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::raw_pixels::raw_pixels;
 use crate::files::number_type::NumberType;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let Some(([width, height, channels], head)) = colmap_head(bytes) else {
-        return Err(damaged(
-            Format::Colmap,
-            "its head is no `width&height&channels&`",
-        ));
+        return Err(damaged("its head is no `width&height&channels&`"));
     };
     if channels != 1 {
         let reason = format!("it has {channels} channels, and depths have one");
-        return Err(unsupported(Format::Colmap, reason));
+        return Err(not_read(reason));
     }
     let size = (width, height);
-    let values = raw_pixels(Format::Colmap, size, &bytes[head..], NumberType::F32, false)?;
+    let values = raw_pixels(size, &bytes[head..], NumberType::F32, false)?;
     Ok(StoredImage {
         no_data: Some(0.0),
-        ..StoredImage::new(Format::Colmap, size, values, NumberType::F32)
+        ..StoredImage::new(size, values, NumberType::F32)
     })
 }
 
@@ -30,6 +27,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
 mod tests {
     use super::*;
     use crate::files::Unit;
+    use crate::files::image_format::Format;
     use crate::files::images::{DecodeOptions, DepthEvidence};
 
     #[test]
@@ -53,7 +51,7 @@ mod tests {
             .chain([300_f32; 6].map(f32::to_le_bytes).concat())
             .collect();
         let read = decode(&large)
-            .and_then(|file| file.finish(&DecodeOptions::default()))
+            .and_then(|file| file.finish(Format::Colmap, &DecodeOptions::default()))
             .unwrap();
         assert_eq!(
             (read.depths, read.depth_unit),

@@ -14,8 +14,7 @@ use ::exr::prelude::{
 use super::samples::narrowed;
 use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::files::buffer::reserve;
-use crate::files::failure::{check_length, damaged, unsupported};
-use crate::files::image_format::Format;
+use crate::files::failure::{check_length, damaged, not_read};
 use crate::files::images::decoded::{StoredImage, recorded_sides};
 use crate::files::images::grey::{Channels, grey};
 use crate::files::number_type::NumberType;
@@ -33,7 +32,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         return Err(Error::Empty { what: "EXR image" });
     }
     let pixel_bytes = header.channels.bytes_per_pixel;
-    check_length(Format::Exr, bytes, len.saturating_mul(pixel_bytes))?;
+    check_length(bytes, len.saturating_mul(pixel_bytes))?;
     let number_type = match header.channels.list[chosen.heights[0]].sample_type {
         SampleType::U32 => NumberType::U32,
         SampleType::F16 => NumberType::F16,
@@ -62,7 +61,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     while let Some(block) = blocks.decompress_next_block() {
         let block: UncompressedBlock = block.map_err(failed)?;
         if block.index.layer != layer || block.index.level != Vec2(0, 0) {
-            return Err(damaged(Format::Exr, "a block is not where it should be"));
+            return Err(damaged("a block is not where it should be"));
         }
         for line in block.lines(&channels) {
             let Some(plane) = wanted.iter().position(|k| *k == line.location.channel) else {
@@ -70,7 +69,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
             };
             let Vec2(x, y) = line.location.position;
             let row = y * width + x..y * width + x + line.location.sample_count;
-            let outside = || damaged(Format::Exr, "a block lies outside of the image");
+            let outside = || damaged("a block lies outside of the image");
             let out = planes[plane].get_mut(row).ok_or_else(outside)?;
             missing = missing.saturating_sub(out.len());
             match channels.list[wanted[plane]].sample_type {
@@ -82,17 +81,17 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         }
     }
     if missing > 0 {
-        return Err(damaged(Format::Exr, "a part of the image is missing"));
+        return Err(damaged("a part of the image is missing"));
     }
     let size = (width, height);
     let layout = Channels {
         colours: chosen.heights.len(),
         alpha: chosen.alpha.map(|_| chosen.heights.len()),
     };
-    let values = grey(Format::Exr, size, &layout, |i, k| planes[k][i])?;
+    let values = grey(size, &layout, |i, k| planes[k][i])?;
     Ok(StoredImage {
         sides: pixel_size.and_then(recorded_sides),
-        ..StoredImage::new(Format::Exr, size, values, number_type)
+        ..StoredImage::new(size, values, number_type)
     })
 }
 
@@ -138,14 +137,14 @@ fn choose_layer(layers: &[Header]) -> Result<(usize, &Header, ChosenChannels)> {
                 names.join(", ")
             ),
         };
-        return Err(unsupported(Format::Exr, reason));
+        return Err(not_read(reason));
     };
     let header = &layers[layer];
     // The decoder assumes longer lines than subsampled channels have.
     let is_plain = |channel: &ChannelDescription| channel.sampling == Vec2(1, 1);
     if !header.channels.list.iter().all(is_plain) {
         let reason = "subsampled channels; write it with one sample for each pixel";
-        return Err(unsupported(Format::Exr, reason));
+        return Err(not_read(reason));
     }
     Ok((layer, header, chosen))
 }
@@ -204,8 +203,8 @@ fn heights_among(named: &[NamedChannel], layers: &[Header]) -> Option<(usize, Ch
 
 fn failed(error: ExrError) -> Error {
     match error {
-        ExrError::NotSupported(what) => unsupported(Format::Exr, what),
-        other => damaged(Format::Exr, other),
+        ExrError::NotSupported(what) => not_read(what),
+        other => damaged(other),
     }
 }
 

@@ -4,7 +4,7 @@
 use super::tiff_tags::map_sides;
 use crate::error::Result;
 use crate::files::Assumption;
-use crate::files::image_format::{Format, hgt_side};
+use crate::files::image_format::hgt_side;
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::georeference::Georeference;
 use crate::files::images::raw_pixels::raw_pixels;
@@ -16,7 +16,7 @@ const VOID_METRES: f64 = -32_768.0;
 /// Decodes the file of a given name.
 pub(super) fn decode(bytes: &[u8], name: &str) -> Result<StoredImage> {
     let side = hgt_side(bytes).unwrap_or_default();
-    let values = raw_pixels(Format::Hgt, (side, side), bytes, NumberType::I16, true)?;
+    let values = raw_pixels((side, side), bytes, NumberType::I16, true)?;
     let place = south_west(name);
     let [latitude, longitude] = place.unwrap_or_default();
     let step = 1.0 / (side - 1) as f64;
@@ -34,7 +34,7 @@ pub(super) fn decode(bytes: &[u8], name: &str) -> Result<StoredImage> {
         height_scale: Some(1.0),
         georeference: place.map(|_| map),
         assumptions,
-        ..StoredImage::new(Format::Hgt, (side, side), values, NumberType::I16)
+        ..StoredImage::new((side, side), values, NumberType::I16)
     })
 }
 
@@ -59,6 +59,7 @@ fn south_west(name: &str) -> Option<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::image_format::Format;
 
     #[test]
     fn a_square_of_one_degree_lies_where_its_name_says() {

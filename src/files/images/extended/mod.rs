@@ -17,7 +17,7 @@ use super::decode_options::DecodeOptions;
 use super::decoded::Decoded;
 use super::photo::decode_other_photo;
 use crate::error::Result;
-use crate::files::failure::unsupported;
+use crate::files::failure::{in_format, not_read};
 use crate::files::image_format::Format;
 
 pub use exr::write_exr;
@@ -40,9 +40,9 @@ pub fn decode(bytes: &[u8], format: Format, options: &DecodeOptions) -> Result<D
         Format::Colmap => colmap::decode(bytes),
         Format::Hgt => hgt::decode(bytes, &options.name),
         Format::Jpeg | Format::WebP | Format::Gif | Format::Bmp => {
-            samples::from_photo(format, &decode_other_photo(bytes)?)
+            samples::from_photo(&decode_other_photo(bytes)?)
         }
-        Format::Png | Format::Npy => Err(unsupported(format, "it is decoded elsewhere")),
+        Format::Png | Format::Npy => Err(not_read("it is decoded elsewhere")),
     };
-    stored?.finish(options)
+    stored.map_err(in_format(format))?.finish(format, options)
 }

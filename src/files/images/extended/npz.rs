@@ -8,7 +8,7 @@ use ::zip::result::ZipError;
 use crate::MAX_CELLS;
 use crate::error::{Error, Result};
 use crate::files::buffer::reserve;
-use crate::files::failure::{check_length, damaged, unsupported};
+use crate::files::failure::{check_length, damaged, in_format, not_read};
 use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::npy;
@@ -40,6 +40,10 @@ pub struct NpzArray {
 /// [`Error::Format`] for a damaged file, [`Error::Unsupported`] for arrays
 /// whose header cannot be read, and for more than 1024 of them.
 pub fn npz_arrays(bytes: &[u8]) -> Result<Vec<NpzArray>> {
+    headers(bytes).map_err(in_format(Format::Npz))
+}
+
+fn headers(bytes: &[u8]) -> Result<Vec<NpzArray>> {
     let mut archive = open(bytes)?;
     names(&archive)?
         .into_iter()
@@ -47,7 +51,7 @@ pub fn npz_arrays(bytes: &[u8]) -> Result<Vec<NpzArray>> {
             let mut head = Vec::new();
             let entry = archive.by_name(&member(&name)).map_err(failed)?;
             let whole = entry.take(MAX_HEADER_BYTES).read_to_end(&mut head);
-            whole.map_err(|e| damaged(Format::Npz, e))?;
+            whole.map_err(damaged)?;
             let (shape, data_type) = npy::describe(&head).map_err(|e| within(&name, e))?;
             Ok(NpzArray {
                 name,
@@ -71,7 +75,7 @@ pub(super) fn decode(bytes: &[u8], array: Option<&str>) -> Result<StoredImage> {
                 Some(wanted) => format!("it has no array `{wanted}`, only {there}"),
                 None => format!("it holds {there}; choose one by the option `array`"),
             };
-            return Err(unsupported(Format::Npz, reason));
+            return Err(not_read(reason));
         }
     };
     let entry = archive.by_name(&member(name)).map_err(failed)?;
@@ -83,19 +87,15 @@ pub(super) fn decode(bytes: &[u8], array: Option<&str>) -> Result<StoredImage> {
             limit: MAX_CELLS,
         });
     }
-    check_length(Format::Npz, bytes, size)?;
+    check_length(bytes, size)?;
     let mut file = Vec::new();
     reserve(&mut file, "NPZ array", size)?;
     // The decoder never returns more than the header states, and the archive's checksum verifies it.
     let read = entry.take(size as u64 + 1).read_to_end(&mut file);
-    read.map_err(|e| damaged(Format::Npz, e))?;
-    let decoded = crate::files::kind::announced(&file, Some(Format::Npy))
+    read.map_err(damaged)?;
+    crate::files::kind::announced(&file, Some(Format::Npy))
         .and_then(|_| npy::decode(&file))
-        .map_err(|e| within(name, e))?;
-    Ok(StoredImage {
-        format: Format::Npz,
-        ..decoded
-    })
+        .map_err(|e| within(name, e))
 }
 
 fn open(bytes: &[u8]) -> Result<ZipArchive<Cursor<&[u8]>>> {
@@ -105,17 +105,17 @@ fn open(bytes: &[u8]) -> Result<ZipArchive<Cursor<&[u8]>>> {
 /// Names of the arrays in an archive, of which there is one at least.
 fn names(archive: &ZipArchive<Cursor<&[u8]>>) -> Result<Vec<String>> {
     if archive.len() > MAX_ARRAYS {
-        return Err(unsupported(
-            Format::Npz,
-            format!("{} files in it; {MAX_ARRAYS} are the most", archive.len()),
-        ));
+        return Err(not_read(format!(
+            "{} files in it; {MAX_ARRAYS} are the most",
+            archive.len()
+        )));
     }
     let names: Vec<String> = (archive.file_names())
         .filter_map(|name| name.strip_suffix(".npy"))
         .map(str::to_owned)
         .collect();
     match names.is_empty() {
-        true => Err(unsupported(Format::Npz, "there are no arrays in it")),
+        true => Err(not_read("there are no arrays in it")),
         false => Ok(names),
     }
 }
@@ -131,8 +131,7 @@ fn listed(names: &[String]) -> String {
 
 /// Adds the name of an array in an NPZ archive to the text of an error about that array.
 fn within(name: &str, mut error: Error) -> Error {
-    if let Error::Format { format, reason } | Error::Unsupported { format, reason } = &mut error {
-        *format = Format::Npz.title();
+    if let Error::Format { reason, .. } | Error::Unsupported { reason, .. } = &mut error {
         *reason = format!("array `{name}`: {reason}");
     }
     error
@@ -140,7 +139,7 @@ fn within(name: &str, mut error: Error) -> Error {
 
 fn failed(error: ZipError) -> Error {
     match error {
-        ZipError::UnsupportedArchive(what) => unsupported(Format::Npz, what),
-        other => damaged(Format::Npz, other),
+        ZipError::UnsupportedArchive(what) => not_read(what),
+        other => damaged(other),
     }
 }

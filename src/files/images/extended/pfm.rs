@@ -3,7 +3,6 @@
 
 use crate::error::Result;
 use crate::files::failure::damaged;
-use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::grey::{Channels, grey};
 use crate::files::images::raw_pixels::raw_pixels;
@@ -15,14 +14,13 @@ const MAX_NUMBER_BYTES: usize = 32;
 /// Decodes a portable float map.
 pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let colours = if bytes.starts_with(b"PF") { 3 } else { 1 };
-    let mut head = Header(Format::Pfm, &bytes[2..]);
+    let mut head = Header(&bytes[2..]);
     let (width, height) = head.size()?;
     let scale: f64 = head.number("scale", |scale: &f64| scale.is_finite() && *scale != 0.0)?;
     // A negative scale says that the bytes are little-endian.
     let numbers = raw_pixels(
-        Format::Pfm,
         (colours * width, height),
-        head.1,
+        head.0,
         NumberType::F32,
         scale > 0.0,
     )?;
@@ -30,19 +28,19 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
         colours,
         alpha: None,
     };
-    let values = grey(Format::Pfm, (width, height), &channels, |i, k| {
+    let values = grey((width, height), &channels, |i, k| {
         let (row, col) = (height - 1 - i / width, i % width);
         numbers[colours * (row * width + col) + k]
     })?;
     Ok(StoredImage {
         height_scale: Some(scale.abs()),
-        ..StoredImage::new(Format::Pfm, (width, height), values, NumberType::F32)
+        ..StoredImage::new((width, height), values, NumberType::F32)
     })
 }
 
 /// Decodes a portable grey map: levels of one or two bytes, the larger first, or in text.
 pub(super) fn decode_pgm(bytes: &[u8]) -> Result<StoredImage> {
-    let mut head = Header(Format::Pgm, &bytes[2..]);
+    let mut head = Header(&bytes[2..]);
     let size = head.size()?;
     let white: u16 = head.number("level of white", |white| *white > 0)?;
     let number_type = if white > 255 {
@@ -52,19 +50,19 @@ pub(super) fn decode_pgm(bytes: &[u8]) -> Result<StoredImage> {
     };
     let values = if bytes.starts_with(b"P2") {
         // A level takes a byte at least, which limits the memory for them.
-        let mut levels = raw_pixels(Format::Pgm, size, head.1, NumberType::U8, true)?;
+        let mut levels = raw_pixels(size, head.0, NumberType::U8, true)?;
         for level in &mut levels {
             *level = head.number::<u16>("level", |level| *level <= white)?.into();
         }
         levels
     } else {
-        raw_pixels(Format::Pgm, size, head.1, number_type, true)?
+        raw_pixels(size, head.0, number_type, true)?
     };
-    Ok(StoredImage::new(Format::Pgm, size, values, number_type))
+    Ok(StoredImage::new(size, values, number_type))
 }
 
-/// What is left of a file whose header is being read, and its format.
-struct Header<'a>(Format, &'a [u8]);
+/// What is left of a file whose header is being read.
+struct Header<'a>(&'a [u8]);
 
 impl Header<'_> {
     /// Reads the next number, which is good; one byte of white space ends it, as what follows may look like more of it.
@@ -73,7 +71,7 @@ impl Header<'_> {
         what: &str,
         is_good: impl Fn(&T) -> bool,
     ) -> Result<T> {
-        let mut start = self.1.trim_ascii_start();
+        let mut start = self.0.trim_ascii_start();
         while start.starts_with(b"#") {
             let end = start.iter().position(|byte| *byte == b'\n');
             start = start[end.unwrap_or(start.len())..].trim_ascii_start();
@@ -81,11 +79,11 @@ impl Header<'_> {
         let length = (start.iter().take(MAX_NUMBER_BYTES + 1))
             .position(u8::is_ascii_whitespace)
             .or(Some(start.len()).filter(|length| (1..=MAX_NUMBER_BYTES).contains(length)))
-            .ok_or_else(|| damaged(self.0, "its header is cut short"))?;
-        self.1 = &start[(length + 1).min(start.len())..];
+            .ok_or_else(|| damaged("its header is cut short"))?;
+        self.0 = &start[(length + 1).min(start.len())..];
         let word = String::from_utf8_lossy(&start[..length]);
         let number = word.parse().ok().filter(is_good);
-        number.ok_or_else(|| damaged(self.0, format!("its {what} is `{word}`")))
+        number.ok_or_else(|| damaged(format!("its {what} is `{word}`")))
     }
 
     /// Reads columns and rows.

@@ -1,7 +1,6 @@
 //! Converts photos to heights, and heights to numbers of 32 bits, for several formats.
 
 use crate::error::{Error, Result, checked_cells, try_filled};
-use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::grey::{Channels, grey};
 use crate::files::images::photo::PhotoFile;
@@ -10,17 +9,17 @@ use crate::heights::heightfield::HeightImage;
 use crate::math::lanes;
 
 /// Converts a decoded photo to a grey image.
-pub(super) fn from_photo(format: Format, photo: &PhotoFile) -> Result<StoredImage> {
+pub(super) fn from_photo(photo: &PhotoFile) -> Result<StoredImage> {
     let size = (photo.width, photo.height);
-    checked_cells(format.title(), size.1, size.0)?;
+    checked_cells("image", size.1, size.0)?;
     let channels = Channels {
         colours: 3,
         alpha: Some(3),
     };
-    let values = grey(format, size, &channels, |i, k| photo.rgba[4 * i + k].into())?;
+    let values = grey(size, &channels, |i, k| photo.rgba[4 * i + k].into())?;
     Ok(StoredImage {
         assumptions: photo.assumptions.clone(),
-        ..StoredImage::new(format, size, values, NumberType::U8)
+        ..StoredImage::new(size, values, NumberType::U8)
     })
 }
 

@@ -3,8 +3,7 @@
 use super::tiff_tags::map_sides;
 use crate::error::{Result, checked_cells};
 use crate::files::Assumption;
-use crate::files::failure::{damaged, unsupported};
-use crate::files::image_format::Format;
+use crate::files::failure::{damaged, not_read};
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::georeference::Georeference;
 use crate::files::images::no_data;
@@ -45,15 +44,15 @@ fn image(
             size.1,
             size.0
         );
-        return Err(damaged(Format::Text, reason));
+        return Err(damaged(reason));
     }
     if !(sides.iter().flatten()).all(|side| side.is_finite() && *side > 0.0) {
-        return Err(damaged(Format::Text, "its cells have no size"));
+        return Err(damaged("its cells have no size"));
     }
     let mut image = StoredImage {
         sides,
         no_data,
-        ..StoredImage::new(Format::Text, size, values, NumberType::F64)
+        ..StoredImage::new(size, values, NumberType::F64)
     };
     let map = (sides.zip(corner)).and_then(|(sides, corner)| degrees(&image, sides, corner));
     if let Some(map) = map {
@@ -104,12 +103,7 @@ fn esri_grid(text: &str) -> Result<Option<StoredImage>> {
     }
     let number = |name: &str| -> Result<Option<f64>> {
         let parsed = head.get(name).map(|value| value.replace(',', ".").parse());
-        let wrong = |_| {
-            damaged(
-                Format::Text,
-                format!("its {name} is `{}`, no number", head[name]),
-            )
-        };
+        let wrong = |_| damaged(format!("its {name} is `{}`, no number", head[name]));
         parsed.transpose().map_err(wrong)
     };
     let (Some(cols), Some(rows)) = (number("ncols")?, number("nrows")?) else {
@@ -121,7 +115,7 @@ fn esri_grid(text: &str) -> Result<Option<StoredImage>> {
     let sides = dx.zip(dy).map(<[f64; 2]>::from);
     let values = numbers(rest, true)?;
     if values.is_empty() {
-        return Err(unsupported("header of a raw grid", CONVERT_RAW));
+        return Err(not_read(CONVERT_RAW));
     }
     let no_data = number("nodata_value")?;
     let [x, y] = ["x", "y"].map(|axis| -> Result<Option<f64>> {
@@ -136,14 +130,11 @@ fn esri_grid(text: &str) -> Result<Option<StoredImage>> {
 /// from the lowest y upwards.
 fn surfer_grid(text: &str) -> Result<StoredImage> {
     let mut values = numbers(text, false)?;
-    let cut_short = || damaged(Format::Text, "its header is cut short");
+    let cut_short = || damaged("its header is cut short");
     let head = *values.first_chunk::<8>().ok_or_else(cut_short)?;
     let [cols, rows, x0, x1, y0, y1, _, _] = head;
     if cols.fract() != 0.0 || rows.fract() != 0.0 {
-        return Err(damaged(
-            Format::Text,
-            "its rows and columns are no whole numbers",
-        ));
+        return Err(damaged("its rows and columns are no whole numbers"));
     }
     let size = (cols as usize, rows as usize);
     values.drain(..head.len());
@@ -191,11 +182,12 @@ fn table(text: &str) -> Result<StoredImage> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::image_format::Format;
     use crate::files::images::DecodeOptions;
 
     fn read(text: &str) -> (usize, usize, f64, Vec<f64>) {
         let file = decode(text.as_bytes())
-            .and_then(|file| file.finish(&DecodeOptions::default()))
+            .and_then(|file| file.finish(Format::Text, &DecodeOptions::default()))
             .unwrap();
         (file.width, file.height, file.pixel_size, file.values)
     }
@@ -204,7 +196,9 @@ mod tests {
     fn an_esri_grid_without_a_size_of_cells_has_one_that_is_assumed() {
         let file = decode(b"ncols 3\nnrows 2\n100 900 500\n300 200 700\n").unwrap();
         assert_eq!(file.sides, None);
-        let file = file.finish(&DecodeOptions::default()).unwrap();
+        let file = file
+            .finish(Format::Text, &DecodeOptions::default())
+            .unwrap();
         let assumed: Vec<&str> = file.assumptions.iter().map(|one| one.code).collect();
         assert_eq!(assumed, ["pixelSize"]);
     }
@@ -339,7 +333,7 @@ mod tests {
             .map(|y| row(y).map(|value| format!("{value} ")).collect::<String>() + "\n")
             .collect();
         let read = decode(text.as_bytes())
-            .and_then(|file| file.finish(&DecodeOptions::default()))
+            .and_then(|file| file.finish(Format::Text, &DecodeOptions::default()))
             .unwrap();
         let told: Vec<&str> = read.assumptions.iter().map(|one| one.code).collect();
         assert_eq!(told, ["noData", "pixelSize"]);

@@ -13,8 +13,7 @@ use super::tiff_tags;
 use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::files::Assumption;
 use crate::files::buffer::reserve;
-use crate::files::failure::{check_length, damaged, unsupported};
-use crate::files::image_format::Format;
+use crate::files::failure::{check_length, damaged, not_read};
 use crate::files::images::decode_options::DecodeOptions;
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::georeference::Georeference;
@@ -40,24 +39,21 @@ pub(super) fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<StoredImag
     let layout = tiff_tags::chunky_layout(&mut file)?;
     let kind = (layout.sample_type.map(number_type)).filter(|kind| kind.bytes() * 8 == bits);
     let Some(kind) = kind else {
-        return Err(unsupported(
-            Format::Tiff,
-            format!(
-                "samples of {bits} bits; integers of 8 to 64 bits and floats of 16 to 64 are read"
-            ),
-        ));
+        return Err(not_read(format!(
+            "samples of {bits} bits; integers of 8 to 64 bits and floats of 16 to 64 are read"
+        )));
     };
     let size = kind.bytes();
     let needed = len.saturating_mul(samples * size);
     if layout.len != needed {
-        return Err(damaged(Format::Tiff, "its sizes contradict each other"));
+        return Err(damaged("its sizes contradict each other"));
     }
-    check_length(Format::Tiff, bytes, needed)?;
+    check_length(bytes, needed)?;
     let about = tiff_tags::read(&mut file, stored, kind, options)?;
 
     let mut raw = try_filled("TIFF image", needed, 0u8)?;
     file.read_image_bytes(&mut raw).map_err(failed)?;
-    let values = grey(Format::Tiff, stored, &channels, |i, k| {
+    let values = grey(stored, &channels, |i, k| {
         kind.value(
             &raw[size * (samples * i + k)..][..size],
             cfg!(target_endian = "big"),
@@ -102,7 +98,7 @@ fn channels(file: &mut File, color: ColorType) -> Result<(usize, usize, Channels
                 "{} channels; one of grey is read, or grey RGB: `gdal_translate -b 1 IN.tif OUT.tif` writes the first",
                 other.num_samples()
             );
-            return Err(unsupported(Format::Tiff, reason));
+            return Err(not_read(reason));
         }
     };
     Ok((samples, usize::from(bits), channels))
@@ -208,6 +204,7 @@ mod tests {
     use ::tiff::tags::ResolutionUnit;
 
     use super::*;
+    use crate::files::image_format::Format;
 
     /// A file of 3 × 3 grey pixels for each kind of image, as the tag `NewSubfileType` numbers it.
     fn images(kinds: &[u32]) -> Vec<u8> {
@@ -237,7 +234,9 @@ mod tests {
             (stored.sides, stored.unit, stored.aspect),
             (None, None, 2.0)
         );
-        let read = stored.finish(&DecodeOptions::default()).unwrap();
+        let read = stored
+            .finish(Format::Tiff, &DecodeOptions::default())
+            .unwrap();
         assert_eq!((read.width, read.height), (4, 3));
         let told: Vec<&str> = read.assumptions.iter().map(|one| one.code).collect();
         assert_eq!(told, ["squarePixels", "pixelSize"]);
@@ -280,7 +279,7 @@ mod tests {
             let heights: Vec<f32> = (0..24).map(|i| i as f32).collect();
             image.write_data(&heights).unwrap();
             let stored = decode(&file.into_inner(), &options).unwrap();
-            let read = stored.finish(&options).unwrap();
+            let read = stored.finish(Format::Tiff, &options).unwrap();
             let told = read.assumptions.iter().map(|one| one.words.clone());
             (read.pixel_size, read.height_scale, told.collect::<Vec<_>>())
         };
@@ -312,14 +311,20 @@ mod tests {
         let image = image.with_pixel_size(0.5).unwrap();
         let options = DecodeOptions::default();
         let file = write_tiff(&image, Some(&map)).unwrap();
-        let read = decode(&file, &options).unwrap().finish(&options).unwrap();
+        let read = decode(&file, &options)
+            .unwrap()
+            .finish(Format::Tiff, &options)
+            .unwrap();
         assert_eq!(read.georeference, Some(map));
         assert_eq!(
             (read.pixel_size, read.height_scale, read.unit),
             (0.5, 1.0, None)
         );
         let file = write_tiff(&image, None).unwrap();
-        let read = decode(&file, &options).unwrap().finish(&options).unwrap();
+        let read = decode(&file, &options)
+            .unwrap()
+            .finish(Format::Tiff, &options)
+            .unwrap();
         assert_eq!((read.pixel_size, read.georeference), (0.5, None));
     }
 

@@ -12,8 +12,7 @@ use ::tiff::tags::{ByteOrder, CompressionMethod, Tag};
 use ::tiff::{TiffError, TiffUnsupportedError};
 
 use crate::error::{Error, Result};
-use crate::files::failure::{damaged, unsupported};
-use crate::files::image_format::Format;
+use crate::files::failure::{damaged, not_read};
 
 pub(crate) type File<'a> = Decoder<Cursor<Cow<'a, [u8]>>>;
 
@@ -32,7 +31,7 @@ pub(crate) fn open<'a>(bytes: &'a [u8], max_bytes: usize) -> Result<File<'a>> {
         .map_err(failed)?;
     if kind.unwrap_or(0) & REDUCED_IMAGE_BIT != 0 {
         let reason = "its first image is a reduced one, as in a raw photo of a camera; save the photo as JPEG";
-        return Err(unsupported(Format::Tiff, reason));
+        return Err(not_read(reason));
     }
     match inflated(bytes, &mut file, max_bytes)? {
         Some(inflated) => open(inflated.into()),
@@ -65,17 +64,16 @@ fn inflated(bytes: &[u8], file: &mut File, max_bytes: usize) -> Result<Option<Ve
     let mut left = max_bytes;
     for (offset, count) in offsets?.into_iter().zip(counts?) {
         let end = offset.saturating_add(count).min(usize::MAX as u64) as usize;
-        let compressed = (bytes.get(offset as usize..end))
-            .ok_or_else(|| damaged(Format::Tiff, "it is cut short"))?;
+        let compressed =
+            (bytes.get(offset as usize..end)).ok_or_else(|| damaged("it is cut short"))?;
         let start = plain.len();
         if !compressed.is_empty() {
-            let cause = |error: &dyn std::fmt::Display| damaged(Format::Tiff, error);
-            let decoder = StreamingDecoder::new(compressed).map_err(|error| cause(&error))?;
+            let decoder = StreamingDecoder::new(compressed).map_err(damaged)?;
             let read = decoder.take(left as u64 + 1).read_to_end(&mut plain);
-            left = (left.checked_sub(read.map_err(|error| cause(&error))?)).ok_or_else(|| {
+            left = (left.checked_sub(read.map_err(damaged)?)).ok_or_else(|| {
                 let reason = "more data compressed by Zstandard than are read; `gdal_translate -co COMPRESS=DEFLATE \
                               IN.tif OUT.tif` writes one that is read";
-                unsupported(Format::Tiff, reason)
+                not_read(reason)
             })?;
         }
         places[0].push(start as u64);
@@ -93,7 +91,7 @@ fn inflated(bytes: &[u8], file: &mut File, max_bytes: usize) -> Result<Option<Ve
         (tags[1], counts),
     ] {
         let replaced = directory.replace(&mut plain, tag, &values);
-        replaced.ok_or_else(|| damaged(Format::Tiff, "its directory is cut short"))?;
+        replaced.ok_or_else(|| damaged("its directory is cut short"))?;
     }
     Ok(Some(plain))
 }
@@ -166,18 +164,15 @@ pub(crate) fn failed(error: TiffError) -> Error {
                 50002 => " (JPEG XL)",
                 _ => "",
             };
-            unsupported(
-                Format::Tiff,
-                format!(
-                    "the compression {number}{name}; `gdal_translate -co COMPRESS=DEFLATE IN.tif OUT.tif` \
+            not_read(format!(
+                "the compression {number}{name}; `gdal_translate -co COMPRESS=DEFLATE IN.tif OUT.tif` \
                      writes one that is read"
-                ),
-            )
+            ))
         }
-        TiffError::UnsupportedError(what) => unsupported(Format::Tiff, what),
+        TiffError::UnsupportedError(what) => not_read(what),
         TiffError::IoError(cause) if cause.kind() == ErrorKind::UnexpectedEof => {
-            damaged(Format::Tiff, "it is cut short")
+            damaged("it is cut short")
         }
-        other => damaged(Format::Tiff, other),
+        other => damaged(other),
     }
 }

@@ -6,8 +6,7 @@ use ::tiff::tags::Tag;
 
 use super::tiff_file::{File, failed};
 use crate::error::Result;
-use crate::files::failure::{damaged, unsupported};
-use crate::files::image_format::Format;
+use crate::files::failure::{damaged, not_read};
 use crate::files::images::decode_options::DecodeOptions;
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::georeference::Georeference;
@@ -21,7 +20,7 @@ pub(crate) fn chunky_layout(file: &mut File) -> Result<BufferLayoutPreference> {
     if layout.planes > 1 {
         let reason = "channels stored one after the other; `gdal_translate -co INTERLEAVE=PIXEL IN.tif OUT.tif` \
                       writes them pixel by pixel";
-        return Err(unsupported(Format::Tiff, reason));
+        return Err(not_read(reason));
     }
     Ok(layout)
 }
@@ -116,17 +115,15 @@ pub(super) fn read(
     let inverted = unsigned(file, Tag::PhotometricInterpretation)? == Some(0);
     let is_unsigned = number_type.name().starts_with('u');
     if inverted && (no_data.is_some() || !is_unsigned) {
-        return Err(unsupported(
-            Format::Tiff,
+        return Err(not_read(
             "heights that count from white (WhiteIsZero); write them as BlackIsZero",
         ));
     }
     let orientation = unsigned(file, Tag::Orientation)?.unwrap_or(1);
     if !(1..=8).contains(&orientation) {
-        return Err(damaged(
-            Format::Tiff,
-            format!("its orientation is {orientation}, where 1 to 8 are known"),
-        ));
+        return Err(damaged(format!(
+            "its orientation is {orientation}, where 1 to 8 are known"
+        )));
     }
     Ok(PixelTags {
         image: StoredImage {
@@ -138,7 +135,7 @@ pub(super) fn read(
             offset,
             georeference,
             assumptions,
-            ..StoredImage::new(Format::Tiff, size, Vec::new(), number_type)
+            ..StoredImage::new(size, Vec::new(), number_type)
         },
         orientation,
     })
@@ -164,7 +161,7 @@ fn georeference(file: &mut File) -> Result<Option<Georeference>> {
         (Some(m), _) if m.len() >= 8 => [m[0], m[1], m[3], m[4], m[5], m[7]],
         (_, Some(sides)) => {
             let [x, y, ..] = sides[..] else {
-                return Err(damaged(Format::Tiff, "its pixel scale lacks a number"));
+                return Err(damaged("its pixel scale lacks a number"));
             };
             // Without a tie point the pixels lie anywhere.
             let tie = numbers(Tag::ModelTiepointTag)?.unwrap_or_default();
@@ -175,10 +172,7 @@ fn georeference(file: &mut File) -> Result<Option<Georeference>> {
             [x, 0.0, u - i * x, 0.0, -y, v + j * y]
         }
         (Some(_), None) => {
-            return Err(damaged(
-                Format::Tiff,
-                "its transformation to the map lacks a number",
-            ));
+            return Err(damaged("its transformation to the map lacks a number"));
         }
         (None, None) => return Ok(None),
     };
@@ -209,7 +203,7 @@ pub(super) fn map_sides(
     if !sides.iter().all(|side| side.is_finite() && *side > 0.0) {
         let [x, y] = sides;
         let reason = format!("its pixels are {x} wide and {y} high, no sound numbers");
-        return Err(damaged(Format::Tiff, reason));
+        return Err(damaged(reason));
     }
     if let Some(latitude) = map.latitude(size) {
         let (code, what) = match map.is_geographic() {
@@ -256,10 +250,9 @@ fn resolution_sides(file: &mut File) -> Result<Option<([f64; 2], f64)>> {
         PER_INCH => 25.4,
         PER_CENTIMETRE => 10.0,
         other => {
-            return Err(damaged(
-                Format::Tiff,
-                format!("its unit of resolution is {other}, where 1 to 3 are known"),
-            ));
+            return Err(damaged(format!(
+                "its unit of resolution is {other}, where 1 to 3 are known"
+            )));
         }
     };
     Ok(Some(([per / x, per / y], 1.0)))
@@ -357,12 +350,9 @@ fn no_data(file: &mut File) -> Result<Option<f64>> {
     };
     let text = text.into_string().map_err(failed)?;
     let text = text.trim_matches(['\0', ' ']);
-    let value: f64 = text.parse().map_err(|_| {
-        damaged(
-            Format::Tiff,
-            format!("its tag GDAL_NODATA is `{text}`, no number"),
-        )
-    })?;
+    let value: f64 = text
+        .parse()
+        .map_err(|_| damaged(format!("its tag GDAL_NODATA is `{text}`, no number")))?;
     Ok(Some(value))
 }
 

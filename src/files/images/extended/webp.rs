@@ -5,8 +5,7 @@ use std::io::Cursor;
 use image_webp::{DecodingError, WebPDecoder};
 
 use crate::error::{Result, try_filled};
-use crate::files::failure::{damaged, unsupported};
-use crate::files::image_format::Format;
+use crate::files::failure::{damaged, not_read};
 use crate::files::images::photo::{PhotoFile, PhotoPixels, PhotoTags};
 
 /// Maximum memory that the WebP decoder may allocate for metadata, in bytes.
@@ -31,22 +30,19 @@ fn open(bytes: &[u8]) -> Result<WebPDecoder<Cursor<&[u8]>>> {
         u32::from_le_bytes([length[0], length[1], length[2], length[3]])
     });
     if bytes.len() < length as usize {
-        return Err(damaged(Format::WebP, "it is cut short"));
+        return Err(damaged("it is cut short"));
     }
     let mut decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(failed)?;
     decoder.set_memory_limit(MAX_DECODER_BYTES);
     if decoder.is_animated() {
-        return Err(unsupported(
-            Format::WebP,
-            "an animation; only still pictures are read",
-        ));
+        return Err(not_read("an animation; only still pictures are read"));
     }
     Ok(decoder)
 }
 
 fn failed(error: DecodingError) -> crate::error::Error {
     match error {
-        DecodingError::UnsupportedFeature(what) => unsupported(Format::WebP, what),
-        other => damaged(Format::WebP, other),
+        DecodingError::UnsupportedFeature(what) => not_read(what),
+        other => damaged(other),
     }
 }

@@ -8,7 +8,6 @@ use super::exif::PhotoTags;
 use super::pixels::{PhotoFile, PhotoPixels};
 use crate::error::{Error, Result, try_filled};
 use crate::files::failure::{check_length, damaged};
-use crate::files::image_format::Format;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     let options = DecoderOptions::default()
@@ -17,12 +16,10 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
         .set_max_height(usize::from(u16::MAX));
     let mut decoder = BmpDecoder::new_with_options(ZCursor::new(bytes), options);
     decoder.decode_headers().map_err(failed)?;
-    let (width, height) =
-        (decoder.dimensions()).ok_or_else(|| damaged(Format::Bmp, "it has no header"))?;
+    let (width, height) = (decoder.dimensions()).ok_or_else(|| damaged("it has no header"))?;
     let mut pixels = PhotoPixels::new([width, height])?;
-    let size =
-        (decoder.output_buf_size()).ok_or_else(|| damaged(Format::Bmp, "it has no pixels"))?;
-    check_length(Format::Bmp, bytes, size)?;
+    let size = (decoder.output_buf_size()).ok_or_else(|| damaged("it has no pixels"))?;
+    check_length(bytes, size)?;
     let mut samples = try_filled("BMP image", size, 0)?;
     decoder.decode_into(&mut samples).map_err(failed)?;
     pixels.push_rows(&samples);
@@ -30,5 +27,5 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
 }
 
 fn failed(error: BmpDecoderErrors) -> Error {
-    damaged(Format::Bmp, format!("{error:?}"))
+    damaged(format!("{error:?}"))
 }

@@ -8,7 +8,6 @@ use super::exif::PhotoTags;
 use super::pixels::{MAX_FILE_PIXELS, PhotoFile, PhotoPixels};
 use crate::error::{Error, Result, try_filled};
 use crate::files::failure::damaged;
-use crate::files::image_format::Format;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     let mut options = DecodeOptions::new();
@@ -41,5 +40,5 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
 }
 
 fn failed(error: DecodingError) -> Error {
-    damaged(Format::Gif, error)
+    damaged(error)
 }

@@ -15,7 +15,7 @@ pub use self::pixels::PhotoFile;
 pub(super) use self::pixels::PhotoPixels;
 use super::jpeg;
 use crate::error::Result;
-use crate::files::failure::unsupported;
+use crate::files::failure::{in_format, unsupported};
 use crate::files::image_format::Format;
 #[cfg(feature = "images")]
 use crate::files::kind::{Purpose, refused};
@@ -31,7 +31,7 @@ use crate::files::kind::{Purpose, refused};
 pub fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
     match Format::detect(bytes) {
         #[cfg(feature = "images")]
-        Some(Format::Png) => png::decode(bytes),
+        Some(Format::Png) => png::decode(bytes).map_err(in_format(Format::Png)),
         #[cfg(feature = "images")]
         _ => decode_other_photo(bytes),
         #[cfg(not(feature = "images"))]
@@ -45,14 +45,15 @@ pub fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
 /// As [`decode_photo`].
 #[cfg(feature = "images")]
 pub fn decode_other_photo(bytes: &[u8]) -> Result<PhotoFile> {
-    match Format::detect(bytes) {
-        Some(Format::Jpeg) => jpeg::decode_photo(bytes),
-        Some(Format::WebP) => super::extended::webp::decode_photo(bytes),
-        Some(Format::Gif) => gif::decode(bytes),
-        Some(Format::Bmp) => bmp::decode(bytes),
-        Some(Format::Tiff) => tiff::decode(bytes),
-        _ => Err(refused(bytes, Purpose::Photo)),
-    }
+    let (format, decode): (_, fn(&[u8]) -> Result<PhotoFile>) = match Format::detect(bytes) {
+        Some(format @ Format::Jpeg) => (format, jpeg::decode_photo),
+        Some(format @ Format::WebP) => (format, super::extended::webp::decode_photo),
+        Some(format @ Format::Gif) => (format, gif::decode),
+        Some(format @ Format::Bmp) => (format, bmp::decode),
+        Some(format @ Format::Tiff) => (format, tiff::decode),
+        _ => return Err(refused(bytes, Purpose::Photo)),
+    };
+    decode(bytes).map_err(in_format(format))
 }
 
 /// Decodes a photo in a JPEG or PNG file, and links the decoders of these two formats only.
@@ -61,8 +62,8 @@ pub fn decode_other_photo(bytes: &[u8]) -> Result<PhotoFile> {
 /// As [`decode_photo`].
 pub fn decode_photo_basic(bytes: &[u8]) -> Result<PhotoFile> {
     match Format::detect(bytes) {
-        Some(Format::Png) => png::decode(bytes),
-        Some(Format::Jpeg) => jpeg::decode_photo(bytes),
+        Some(Format::Png) => png::decode(bytes).map_err(in_format(Format::Png)),
+        Some(Format::Jpeg) => jpeg::decode_photo(bytes).map_err(in_format(Format::Jpeg)),
         _ => Err(unsupported(
             "this file",
             "only PNG and JPEG photos are read here",

@@ -5,7 +5,7 @@ use crate::dewarp::BoxReduction;
 use crate::error::{Error, MAX_PHOTO_PIXELS, Result};
 use crate::files::Assumption;
 use crate::files::buffer::reserve;
-use crate::files::failure::unsupported;
+use crate::files::failure::not_read;
 use crate::files::images::orientation::oriented;
 
 /// Maximum number of pixels of a photo's file: a quarter of a gigapixel, of which the decoder holds three bytes each.
@@ -52,7 +52,7 @@ impl PhotoPixels {
             let reason = format!(
                 "it has {width} × {height} pixels, and photos of up to 268 megapixels are read; save it at a lower resolution"
             );
-            return Err(unsupported("photo", reason));
+            return Err(not_read(reason));
         }
         let mut block = 1;
         while (width / block).max(1) * (height / block).max(1) > MAX_PHOTO_PIXELS {

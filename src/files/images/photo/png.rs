@@ -5,8 +5,7 @@ use ::png::{ColorType, Transformations};
 use super::exif::PhotoTags;
 use super::pixels::{MAX_FILE_PIXELS, PhotoFile, PhotoPixels};
 use crate::error::Result;
-use crate::files::failure::unsupported;
-use crate::files::image_format::Format;
+use crate::files::failure::not_read;
 use crate::files::images::png::{Pixels, failed, open};
 
 /// Transformations by which all PNG files become 8-bit grey or colours with alpha.
@@ -36,10 +35,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     // After the transformations only these two colour types remain.
     let known = [ColorType::GrayscaleAlpha, ColorType::Rgba];
     if !known.contains(&reader.output_color_type().0) {
-        return Err(unsupported(
-            Format::Png,
-            "its colours could not be converted",
-        ));
+        return Err(not_read("its colours could not be converted"));
     }
     pixels.finish(&tags)
 }

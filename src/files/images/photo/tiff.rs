@@ -7,8 +7,7 @@ use ::tiff::tags::Tag;
 use super::exif::PhotoTags;
 use super::pixels::{PhotoFile, PhotoPixels};
 use crate::error::Result;
-use crate::files::failure::{check_length, unsupported};
-use crate::files::image_format::Format;
+use crate::files::failure::{check_length, not_read};
 use crate::files::images::extended::tiff_file::{failed, open};
 use crate::files::images::extended::tiff_tags::chunky_layout;
 
@@ -25,13 +24,13 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
         .find_tag_unsigned::<u16>(Tag::Orientation)
         .map_err(failed)?;
     let layout = chunky_layout(&mut file)?;
-    check_length(Format::Tiff, bytes, layout.len)?;
+    check_length(bytes, layout.len)?;
     let samples = match file.read_image().map_err(failed)? {
         DecodingResult::U8(samples) => samples,
         DecodingResult::U16(samples) => samples.iter().map(|v| (v >> 8) as u8).collect(),
         _ => {
             let reason = "floats, signed integers or integers of more than 16 bits, which are no photo's: read them as heights";
-            return Err(unsupported(Format::Tiff, reason));
+            return Err(not_read(reason));
         }
     };
     let samples = match colour {
@@ -56,7 +55,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
             .collect(),
         other => {
             let reason = format!("pixels of kind {other:?}; photos have grey, RGB or CMYK ones");
-            return Err(unsupported(Format::Tiff, reason));
+            return Err(not_read(reason));
         }
     };
     pixels.push_rows(&samples);

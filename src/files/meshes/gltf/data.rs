@@ -7,11 +7,8 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
 
 use crate::error::{MAX_CELLS, Result, try_filled};
-use crate::files::failure::{damaged, unsupported};
+use crate::files::failure::{damaged, not_read};
 use crate::files::number_type::NumberType;
-
-/// Name of the glTF format in error messages.
-pub(super) const FORMAT_NAME: &str = "glTF";
 
 /// Decodes the bytes that a `data:` address in a glTF file contains; `None` for another kind of address.
 pub(super) fn embedded(uri: &str) -> Result<Option<Vec<u8>>> {
@@ -19,11 +16,9 @@ pub(super) fn embedded(uri: &str) -> Result<Option<Vec<u8>>> {
         return Ok(None);
     };
     let Some((_, data)) = data.split_once(";base64,") else {
-        return Err(damaged(FORMAT_NAME, "embedded data are not in base64"));
+        return Err(damaged("embedded data are not in base64"));
     };
-    let bytes = STANDARD
-        .decode(data)
-        .map_err(|error| damaged(FORMAT_NAME, error))?;
+    let bytes = STANDARD.decode(data).map_err(damaged)?;
     Ok(Some(bytes))
 }
 
@@ -58,12 +53,7 @@ impl Data<'_> {
     /// # Errors
     /// [`Error::Format`](crate::Error::Format) if it is not there.
     pub(super) fn element(&self, kind: &str, number: usize) -> Result<&Value> {
-        let missing = || {
-            damaged(
-                FORMAT_NAME,
-                format!("number {number} of its {kind} is not there"),
-            )
-        };
+        let missing = || damaged(format!("number {number} of its {kind} is not there"));
         self.root[kind].get(number).ok_or_else(missing)
     }
 
@@ -74,7 +64,7 @@ impl Data<'_> {
         let kind = number_type(accessor)?;
         let components = components(accessor).unwrap_or(0);
         if components < N {
-            return Err(damaged(FORMAT_NAME, "an attribute has too few components"));
+            return Err(damaged("an attribute has too few components"));
         }
         let is_normalized = accessor["normalized"] == true;
         let width = kind.bytes();
@@ -93,7 +83,7 @@ impl Data<'_> {
                 bytes.chunks(stride).map(element).collect()
             }
             None if count <= MAX_CELLS => try_filled("mesh", count, [0.0; N])?,
-            None => return Err(damaged(FORMAT_NAME, "an accessor has too many elements")),
+            None => return Err(damaged("an accessor has too many elements")),
         };
         if let Some(sparse) = accessor.get("sparse") {
             let count = whole(sparse, "count").unwrap_or(0);
@@ -104,7 +94,7 @@ impl Data<'_> {
             for (place, bytes) in places.chunks(wide).zip(news.chunks(size)) {
                 let place = place_type.value(place, false) as usize;
                 *(values.get_mut(place))
-                    .ok_or_else(|| damaged(FORMAT_NAME, "a sparse accessor has a wrong index"))? =
+                    .ok_or_else(|| damaged("a sparse accessor has a wrong index"))? =
                     element(bytes);
             }
         }
@@ -119,7 +109,7 @@ impl Data<'_> {
             NumberType::U8 | NumberType::U16 | NumberType::U32
         );
         if !is_whole || components(accessor) != Some(1) {
-            return Err(damaged(FORMAT_NAME, "indices are not single whole numbers"));
+            return Err(damaged("indices are not single whole numbers"));
         }
         let values = self.floats::<1>(number)?;
         Ok(values.iter().map(|[value]| *value as u32).collect())
@@ -155,7 +145,7 @@ impl Data<'_> {
             (stride >= size).then_some((bytes.get(..needed)?, stride))
         };
         let reason = "an accessor reaches beyond its buffer, which may have been cut short";
-        found().ok_or_else(|| damaged(FORMAT_NAME, reason))
+        found().ok_or_else(|| damaged(reason))
     }
 }
 
@@ -168,7 +158,7 @@ fn number_type(array: &Value) -> Result<NumberType> {
         5123 => NumberType::U16,
         5125 => NumberType::U32,
         5126 => NumberType::F32,
-        _ => return Err(unsupported(FORMAT_NAME, "an attribute has an unusual type")),
+        _ => return Err(not_read("an attribute has an unusual type")),
     })
 }
 

@@ -9,11 +9,11 @@ use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector4};
 use percent_encoding::percent_decode_str;
 use serde_json::Value;
 
-use self::data::{Data, FORMAT_NAME, embedded, list, numbers, whole};
+use self::data::{Data, embedded, list, numbers, whole};
 use super::beside::Beside;
 use super::builder::{DEFAULT_VERTEX_COLOUR, MeshBuilder, NO_TEXTURE};
 use crate::error::{Error, Result};
-use crate::files::failure::{damaged, unsupported};
+use crate::files::failure::{damaged, not_read};
 
 /// What is said of files of version 1.
 const OTHER_VERSION: &str =
@@ -34,9 +34,9 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
         true => chunks(bytes)?,
         false => (bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), None),
     };
-    let root: Value = serde_json::from_slice(json).map_err(|error| damaged(FORMAT_NAME, error))?;
+    let root: Value = serde_json::from_slice(json).map_err(damaged)?;
     if (root["asset"]["version"].as_str()).is_some_and(|version| !version.starts_with("2.")) {
-        return Err(unsupported(FORMAT_NAME, OTHER_VERSION));
+        return Err(not_read(OTHER_VERSION));
     }
     let required = list(&root["extensionsRequired"]);
     if let Some((name, command)) =
@@ -46,13 +46,13 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
             "its triangles are stored by the extension {name}; `gltf-transform {command} IN.glb \
              OUT.glb` writes a file without it"
         );
-        return Err(unsupported(FORMAT_NAME, reason));
+        return Err(not_read(reason));
     }
     let buffers = (list(&root["buffers"]).iter())
         .map(|buffer| match buffer["uri"].as_str() {
             None => bin
                 .map(Cow::Borrowed)
-                .ok_or_else(|| damaged(FORMAT_NAME, "there is no binary chunk")),
+                .ok_or_else(|| damaged("there is no binary chunk")),
             Some(uri) => match embedded(uri)? {
                 Some(bytes) => Ok(Cow::Owned(bytes)),
                 None => match beside.find(&plain(uri)) {
@@ -72,9 +72,9 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
 
 /// Splits a GLB file into its text part and its binary part, if it has one.
 fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>)> {
-    let damaged = || damaged(FORMAT_NAME, "its chunks are not as its header states");
+    let damaged = || damaged("its chunks are not as its header states");
     if bytes.get(4..8) != Some(&[2, 0, 0, 0]) {
-        return Err(unsupported(FORMAT_NAME, OTHER_VERSION));
+        return Err(not_read(OTHER_VERSION));
     }
     let mut rest = bytes.get(12..).ok_or_else(damaged)?;
     let (mut json, mut bin) = (None, None);
@@ -104,7 +104,7 @@ fn elsewhere(uri: &str) -> Error {
     };
     let reason =
         format!("its buffer {name} is {place}; save it as GLB, or give that file beside it");
-    unsupported(FORMAT_NAME, reason)
+    not_read(reason)
 }
 
 /// A glTF document with the bytes of its buffers.
@@ -138,7 +138,7 @@ impl Scene<'_> {
             let node = self.data.element("nodes", number)?;
             if std::mem::replace(&mut seen[number], true) {
                 let reason = "a node has two parents, or is its own ancestor";
-                return Err(damaged(FORMAT_NAME, reason));
+                return Err(damaged(reason));
             }
             let transform = above * matrix(node);
             if let Some(number) = whole(node, "mesh") {
@@ -160,7 +160,7 @@ impl Scene<'_> {
             return Ok(numbered(&scene["nodes"]).collect());
         }
         if default.is_some() {
-            return Err(damaged(FORMAT_NAME, "its default scene is not there"));
+            return Err(damaged("its default scene is not there"));
         }
         let nodes = list(&root["nodes"]);
         let below: BTreeSet<usize> = nodes.iter().flat_map(children).collect();
@@ -219,8 +219,7 @@ impl Scene<'_> {
             };
         }
         let bytes = whole(image, "bufferView").and_then(|number| self.data.view(number));
-        let bytes =
-            bytes.ok_or_else(|| damaged(FORMAT_NAME, "an image reaches beyond its buffer"))?;
+        let bytes = bytes.ok_or_else(|| damaged("an image reaches beyond its buffer"))?;
         Ok(Some(("", bytes.into())))
     }
 
@@ -277,10 +276,9 @@ impl Scene<'_> {
             None => (0..vertices as u32).collect(),
         };
         if let Some(outside) = indices.iter().find(|i| **i as usize >= vertices) {
-            return Err(damaged(
-                FORMAT_NAME,
-                format!("a triangle names vertex {outside} of {vertices}"),
-            ));
+            return Err(damaged(format!(
+                "a triangle names vertex {outside} of {vertices}"
+            )));
         }
         let indices: Vec<u32> = indices.iter().map(|i| i + start as u32).collect();
         match mode {

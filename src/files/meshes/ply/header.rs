@@ -53,7 +53,7 @@ impl Header {
             match at {
                 Some(at) => rest = &rest[at + 1..],
                 None if ended => rest = &[],
-                None => return Err(damaged("PLY", "its header has no end")),
+                None => return Err(damaged("its header has no end")),
             }
             if ended {
                 return Ok((header, rest));
@@ -63,7 +63,7 @@ impl Header {
 
     fn add(&mut self, line: &str) -> Result<()> {
         let mut words: VecDeque<&str> = line.split_whitespace().collect();
-        let unclear = || damaged("PLY", format!("its header has the line {line:?}"));
+        let unclear = || damaged(format!("its header has the line {line:?}"));
         match words.pop_front() {
             Some("format") => {
                 self.encoding = match words.pop_front() {

@@ -14,7 +14,7 @@ use super::narrow::byte;
 use super::rows::whole;
 use crate::error::Result;
 use crate::files::buffer::Buffer;
-use crate::files::failure::{damaged, unsupported};
+use crate::files::failure::{damaged, not_read};
 use crate::scene::mesh::Mesh;
 
 pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Result<()> {
@@ -40,7 +40,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
                 "elements `{}` have no list of whole numbers `vertex_indices`",
                 element.name
             );
-            return Err(damaged("PLY", reason));
+            return Err(damaged(reason));
         }
         parts.has_lines |= element.name == "edge" && element.count > 0;
         if let ("vertex", Some(missing)) = (
@@ -50,7 +50,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
             let reason = format!(
                 "its vertices have no property `{missing}`; save it with x, y and z for each vertex"
             );
-            return Err(unsupported("PLY", reason));
+            return Err(not_read(reason));
         }
         for _ in 0..element.count {
             match element.name.as_str() {
@@ -71,7 +71,7 @@ fn each_value(
 ) -> Result<()> {
     for property in &element.properties {
         let count = match property.length {
-            Some(kind) => whole("PLY", values.next(kind)?)?,
+            Some(kind) => whole(values.next(kind)?)?,
             None => 1,
         };
         for _ in 0..count {
@@ -143,14 +143,14 @@ impl Faces {
             for strip in indices.split(|index| *index == -1.0) {
                 let strip = strip
                     .iter()
-                    .map(|i| whole("PLY", *i))
+                    .map(|i| whole(*i))
                     .collect::<Result<Vec<_>>>()?;
                 parts.strip(&strip)?;
             }
         } else {
             let mut face = indices
                 .iter()
-                .map(|i| whole("PLY", *i))
+                .map(|i| whole(*i))
                 .collect::<Result<Vec<_>>>()?;
             if element.properties.iter().any(|p| p.name == "texcoord") {
                 self.split(&mut face, &uvs, parts)?;
@@ -178,7 +178,7 @@ impl Faces {
         for (k, index) in face.iter_mut().enumerate() {
             if *index as usize >= corners.positions.len() {
                 let reason = format!("a face names vertex {index} of {}", corners.positions.len());
-                return Err(damaged("PLY", reason));
+                return Err(damaged(reason));
             }
             let uv = uvs.get(2 * k..2 * k + 2).map(|uv| [uv[0], uv[1]]);
             *index = corners.vertex(*index as usize, uv, CornerMaterial::default(), parts)?;
@@ -198,7 +198,7 @@ impl Faces {
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 pub fn write_ply(mesh: &Mesh) -> Result<Vec<u8>> {
     if mesh.positions().len() > i32::MAX as usize {
-        return Err(unsupported("PLY", "more than 2³¹ vertices are not written"));
+        return Err(not_read("more than 2³¹ vertices are not written"));
     }
     let mut file = Buffer::default();
     let written = write(&mut file, mesh);

@@ -57,13 +57,10 @@ impl<'a> Values<'a> {
         let (word, rest) = text.split_at(end.unwrap_or(text.len()));
         self.rest = rest;
         let word = String::from_utf8_lossy(word);
-        (word.parse()).map_err(|_| damaged("PLY", format!("{word:?} stands where a number should")))
+        (word.parse()).map_err(|_| damaged(format!("{word:?} stands where a number should")))
     }
 }
 
 fn too_short() -> crate::error::Error {
-    damaged(
-        "PLY",
-        "the file is too short for the elements that its header states",
-    )
+    damaged("the file is too short for the elements that its header states")
 }

@@ -3,10 +3,6 @@ import { shortLambda } from './format.js';
 import { ENERGIES, VIEW_WORDS } from './messages.js';
 import { noDataOf } from './no-data.js';
 
-/** @import {Energy} from './api.js' */
-/** @import {Settings} from './session.js' */
-/** @import {NoData} from './no-data.js' */
-
 /**
  * @typedef {object} State
  * @property {string} [card] id of a card of the gallery
@@ -42,9 +38,7 @@ export function addressOf({ card, example, file, stored, settings, whole, photo,
     if (value === undefined || value === defaults[/** @type {keyof Settings} */ (name)]) continue;
     parameters.set(name, typeof value === 'number' && name === 'lambda' ? shortLambda(value) : String(value));
   }
-  if (unkept) parameters.set('unkept', '1');
-  if (photo) parameters.set('photo', '1');
-  if (whole) parameters.set('whole', '1');
+  for (const [name, flag] of Object.entries({ unkept, photo, whole })) if (flag) parameters.set(name, '1');
   if (view && view !== 'shaded') parameters.set('view', view);
   return `#${[...(card ? [card] : []), ...(parameters.size > 0 ? [parameters] : [])].join('&')}`;
 }

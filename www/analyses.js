@@ -5,13 +5,10 @@ import { transferToWorker, callWorker } from './surface/worker-client.js';
 import { Tasks } from './worker-task.js';
 import { heightsOf } from './session.js';
 
-/** @import {Api, Surface} from './api.js' */
-/** @import {Result} from './session.js' */
+/** @import {Surface} from '../pkg/types.js' */
 
-/** @import {Tell} from './mesh-fit.js' */
 /** @typedef {import('../pkg/types.js').Analysis} Analysis */
 /** @typedef {ReturnType<typeof import('./surface/gaussian-curvature.js').curvaturesOf>} Curvatures */
-/** @typedef {import('../pkg/types.js').PatternOptions} PatternOptions */
 
 /** Longer side of the lattice that is cut into sheets, in pixels: a pixel is half a millimetre for a piece of 20 cm. */
 const PATTERN_SIDE_PIXELS = 450;
@@ -92,10 +89,9 @@ export class Analyses {
   pattern(result, options, tell) {
     const { surface } = result;
     const { width, height } = result.image;
-    const source = Math.max(width, height) < MAX_UNREDUCED_RATIO * PATTERN_SIDE_PIXELS ? surface : reducedImage(result, PATTERN_SIDE_PIXELS);
+    const source = Math.max(width, height) < MAX_UNREDUCED_RATIO * PATTERN_SIDE_PIXELS ? surface : downsample(result.image, PATTERN_SIDE_PIXELS);
     return this.#tasks.answer(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(source, { ...options, onProgress: ({ fraction }) => tell({ fraction, task: 'cutting' }) }));
   }
-
 }
 
 /**
@@ -112,15 +108,4 @@ export async function smoothPatchCount({ rows, cols, labels, spacing, patches },
 function shownCurvatures(analysis) {
   const { gaussian, kappa1, kappa2 } = analysis;
   return transferToWorker('curvaturesOf', [gaussian, kappa1, kappa2], analysis);
-}
-
-/**
- * The image of a result, reduced to fewer pixels.
- * @param {Result} result
- * @param {number} side maximum number of pixels along the longer side
- */
-function reducedImage(result, side) {
-  const { width, pixelSize, ...image } = result.image;
-  const small = downsample({ width, ...image }, side);
-  return { ...small, pixelSize: (pixelSize * width) / small.width };
 }

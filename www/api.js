@@ -1,24 +1,7 @@
-/** The package's types, and how it is loaded. No other module knows that it lies in `pkg/`. */
+/** How the package is loaded. */
 
 /** @typedef {typeof import('../pkg/index.js')} Package */
 /** @typedef {Package & { SolverWorker: new (options?: { threads?: number }) => InstanceType<Package['DevelopableWorker']> }} Api `SolverWorker`: a worker for solves */
-/** @typedef {import('../pkg/types.js').DepthOptions} DepthOptions */
-/** @typedef {import('../pkg/types.js').Energy} Energy */
-/** @typedef {import('../pkg/types.js').ExampleName} ExampleName */
-/** @typedef {import('../pkg/types.js').ExampleOptions} ExampleOptions */
-/** @typedef {import('../pkg/types.js').Heightfield} Heightfield */
-/** @typedef {import('../pkg/index.js').OpenSolver} OpenSolver */
-/** @typedef {import('../pkg/types.js').Progress} Progress */
-/** @typedef {import('../pkg/types.js').PageReport} PageReport */
-/** @typedef {import('../pkg/types.js').PhotoCamera} PhotoCamera */
-/** @typedef {import('../pkg/types.js').Report} Report */
-/** @typedef {import('../pkg/types.js').Ruling} Ruling */
-/** @typedef {import('../pkg/types.js').StopReason} StopReason */
-/** @typedef {import('../pkg/types.js').Surface} Surface */
-/** @typedef {import('../pkg/types.js').Verdict} Verdict */
-/** @typedef {import('../pkg/types.js').Mesh} Mesh */
-/** @typedef {import('../pkg/types.js').SampledMesh} SampledMesh */
-/** @typedef {import('../pkg/types.js').SampleMeshOptions} SampleMeshOptions */
 
 /**
  * Loads the package. Its workers for solves share one compiled solver, which the first of them loads. The import is dynamic, so

@@ -65,11 +65,6 @@ export const SETTLING_MS = 400;
 /** Time for which a note stands that something was copied, in milliseconds. */
 export const COPIED_NOTE_MS = 4000;
 
-/** Waits for the next task of the event loop, so that the browser can draw and handle input before. */
-export function nextTask() {
-  return new Promise((resolve) => setTimeout(resolve));
-}
-
 /**
  * Keeps the resolution of a canvas at that of the device.
  * @param {HTMLCanvasElement} canvas
@@ -102,6 +97,19 @@ export function make(tag, className, ...children) {
   const made = document.createElement(tag);
   if (className) made.className = className;
   made.append(...children);
+  return made;
+}
+
+/**
+ * Creates a button.
+ * @param {string} className
+ * @param {() => unknown} act called when it is clicked
+ * @param {...(Node | string)} children
+ */
+export function makeButton(className, act, ...children) {
+  const made = make('button', className, ...children);
+  made.type = 'button';
+  made.addEventListener('click', () => void act());
   return made;
 }
 

@@ -50,7 +50,7 @@ export function fieldsOf(table, onChange = () => {}) {
     Object.assign(control, { id: name, ...(isCheck ? { type: 'checkbox', checked: value } : { value }), ...(!options && !isCheck && { type: 'text', inputMode: field.range && !field.range.isWide && !field.range.takes(-1) ? 'decimal' : 'text', placeholder, spellcheck: false, autocomplete: 'off' }) });
     const fault = make('span', 'wrong small');
     Object.assign(fault, { id: `${name}-wrong`, ariaLive: 'polite' });
-    const about = make('span', 'hint small', hint ?? '');
+    const about = make('span', 'muted small', hint ?? '');
     about.id = `${name}-hint`;
     if (!isCheck) control.setAttribute('aria-describedby', `${fault.id} ${about.id} ${describedBy}`.trim());
     if (controls) control.setAttribute('aria-controls', controls);

@@ -41,7 +41,8 @@ export async function routeFiles(files, inPhotoMode) {
   if (roles.depths) return { to: 'heights', files: without(roles.others), left: roles.others };
   const pictures = files.filter((file) => kindByName(file) === 'picture');
   if (pictures.length > 0) {
-    const arePhotos = inPhotoMode || pictures.length > 1 || await isPhoto(pictures[0]);
+    // Heights that are kept as a picture are a grey PNG.
+    const arePhotos = inPhotoMode || pictures.length > 1 || !/\.png$/i.test(pictures[0].name) || await isInColour(pictures[0]);
     return { to: arePhotos ? 'photos' : 'heights', files: pictures, left: without(pictures) };
   }
   const readable = files.filter((file) => kindByName(file) !== 'other').slice(0, 1);
@@ -70,7 +71,7 @@ export async function fileRoles(files, inPhotoMode = false) {
   // A grey PNG that was opened together with one photo in colour holds its depths.
   if (!inPhotoMode && !roles.depths && !roles.mesh) {
     const pictures = files.filter((file) => file === roles.photo || (roles.others.includes(file) && kindByName(file) === 'picture'));
-    const grey = await Promise.all(pictures.map(isGreyPng));
+    const grey = await Promise.all(pictures.map((file) => isGreyPng(file)));
     if (pictures.length === 2 && grey[0] !== grey[1]) {
       [roles.depths, roles.photo] = grey[0] ? pictures : pictures.toReversed();
       roles.others = files.filter((file) => !Object.values(roles).includes(file));
@@ -89,32 +90,19 @@ async function roleOf(file) {
   const kind = kindByName(file);
   if (kind === 'camera') return 'camera';
   if (kind === 'heights') return 'depths';
-  if ((/\.png$/i.test(name) && /depth/i.test(name)) || await isGrey16Png(file)) return 'depths';
+  if ((/\.png$/i.test(name) && /depth/i.test(name)) || await isGreyPng(file, true)) return 'depths';
   return kind === 'picture' ? 'photo' : null;
 }
 
-/** Whether a file is a grey PNG with 16 bits per pixel, as depth cameras write it. @param {File} file */
-async function isGrey16Png(file) {
-  const { bits, colour } = await pngHeader(file);
-  return bits === 16 && colour === 0;
-}
-
-/** Whether a file is a grey PNG, with transparency or without. @param {File} file */
-async function isGreyPng(file) {
-  const { colour } = await pngHeader(file);
-  return colour === 0 || colour === 4;
-}
-
-/** Bit depth and colour type of a PNG; empty for other files. @param {File} file @returns {Promise<{ bits?: number, colour?: number }>} */
-async function pngHeader(file) {
-  if (!/\.png$/i.test(file.name)) return {};
-  const header = new Uint8Array(await file.slice(0, 26).arrayBuffer());
-  return { bits: header[24], colour: header[25] };
-}
-
-/** Whether a picture is a photo and not heights, which are kept as a grey PNG if as a picture at all. @param {File} file */
-async function isPhoto(file) {
-  return !/\.png$/i.test(file.name) || isInColour(file);
+/**
+ * Whether a file is a grey PNG, with transparency or without.
+ * @param {File} file
+ * @param {boolean} [isDeep] whether it has to have 16 bits per pixel and no transparency, as depth cameras write it
+ */
+async function isGreyPng(file, isDeep = false) {
+  if (!/\.png$/i.test(file.name)) return false;
+  const [bits, colour] = new Uint8Array(await file.slice(24, 26).arrayBuffer());
+  return isDeep ? bits === 16 && colour === 0 : colour === 0 || colour === 4;
 }
 
 /**

@@ -92,22 +92,9 @@ export function seconds(s) {
   return s < 0.1 ? `${number(1000 * s, 2)}${NO_BREAK_SPACE}ms` : `${number(s, s < 100 ? 2 : 3)}${NO_BREAK_SPACE}s`;
 }
 
-/**
- * λ with two significant digits, as it is typed: 1e6, 2.5e6.
- * @param {number} lambda
- */
+/** λ with two significant digits, as it is typed: 1e6, 2.5e6. @param {number} lambda */
 export function shortLambda(lambda) {
   return Number(lambda.toPrecision(2)).toExponential().replace('e+', 'e');
-}
-
-/**
- * The height at the pointer, in words.
- * @param {number} height NaN is no data
- * @param {string} [unit]
- * @param {string} [value] a further value at the same place
- */
-export function heightReading(height, unit = 'units', value = '') {
-  return Number.isNaN(height) ? '' : [`height ${number(height)} ${unit}`, value].filter(Boolean).join(' · ');
 }
 
 /** The unit of areas, or of volumes. @param {string | null} [unit] of lengths @param {'²' | '³'} [power] */

@@ -5,11 +5,6 @@ import { readPicture } from './pixels.js';
 import { transferToWorker } from './surface/worker-client.js';
 import { noDataOptions } from './no-data.js';
 
-/** @import {Api} from './api.js' */
-/** @import {Worker} from './worker-task.js' */
-/** @import {Input} from './session.js' */
-/** @import {NoData} from './no-data.js' */
-
 /** Error: the file is a picture in colour, which is a photo and has no heights. */
 export class ColourPictureError extends Error {
   constructor() {
@@ -52,7 +47,7 @@ export async function readInput(api, file, signal, { array, noData } = {}, photo
 
 /**
  * Names of the two-dimensional arrays of an NPZ file; an empty list for other files.
- * @param {Worker} reader
+ * @param {PackageWorker} reader
  * @param {File} file
  */
 async function heightArrayNames(reader, file) {

@@ -3,10 +3,7 @@ import { number } from './format.js';
 import { GUESS_WORDS } from './messages.js';
 import { rangeOf } from './surface/compare.js';
 
-/** @import {Api} from './api.js' */
-/** @import {Input} from './session.js' */
 /** @typedef {Awaited<ReturnType<Api['read']>>} Read */
-/** @import {NoData} from './no-data.js' */
 
 /**
  * Contents of a file, and how they are interpreted.
@@ -35,31 +32,16 @@ const MIN_MEASURED_SHARE = 0.2;
  * @returns {InterpretedHeights}
  */
 export function interpretFile(read, noData) {
-  const { width, height, data, unit, depths, depthUnit } = read;
+  const { width, height, data, pixelSize, heightScale, dataType, unit, depths, depthUnit } = read;
   if (!data.some(Number.isFinite)) throw new Error('it has no heights, every pixel is “no data” (NaN)');
   if (data.some((value) => Math.abs(value) === Infinity)) throw new Error('it has infinite heights; mark them as NaN, “no data”');
   if (width < 3 || height < 3) throw new Error(`it is ${width} × ${height} pixels; a surface needs at least 3 × 3`);
-  const stored = { ...guessStoredHeights(read, depths !== 'none'), noData };
-  const { pixelSize, heightScale } = stored;
-  return { width, height, data, pixelSize, heightScale, unit: unit ?? undefined, depths: depths === 'none' ? undefined : depths, depthUnit, stored };
-}
-
-/**
- * @param {Read} read
- * @param {boolean} depths whether the values are depths from a camera
- * @returns {StoredHeights}
- */
-function guessStoredHeights(read, depths) {
-  const { width, height, data, pixelSize, heightScale, dataType } = read;
   const given = data.reduce((sum, value) => sum + Number(Number.isFinite(value)), 0);
-  const areFew = !depths && given < MIN_MEASURED_SHARE * data.length;
+  const areFew = depths === 'none' && given < MIN_MEASURED_SHARE * data.length;
   const coarsening = coarseningFor(read);
-  const guesses = [
-    ...(areFew ? [GUESS_WORDS.few] : []),
-    ...(coarsening > 1 ? [GUESS_WORDS.coarse(coarsening)] : []),
-  ].join(' ');
-  const levels = /^u/.test(dataType);
-  return { width, height, data, range: rangeOf(data), pixelSize, heightScale, levels, guesses, coarsening };
+  const guesses = [areFew ? GUESS_WORDS.few : '', coarsening > 1 ? GUESS_WORDS.coarse(coarsening) : ''].filter(Boolean).join(' ');
+  const stored = { width, height, data, range: rangeOf(data), pixelSize, heightScale, levels: /^u/.test(dataType), guesses, coarsening, noData };
+  return { width, height, data, pixelSize, heightScale, unit: unit ?? undefined, depths: depths === 'none' ? undefined : depths, depthUnit, stored };
 }
 
 /** The lattice spacing in pixels that keeps the solve of a large image short. @param {{ width: number, height: number }} size */

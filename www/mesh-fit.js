@@ -3,9 +3,6 @@ import { Tasks } from './worker-task.js';
 import { Events } from './events.js';
 import { boxOf } from './surface/triangles.js';
 
-/** @import {Api, Mesh} from './api.js' */
-/** @typedef {import('../pkg/types.js').MeshSurface} MeshSurface */
-/** @typedef {import('../pkg/types.js').Progress} Progress */
 /** @typedef {(progress: import('./panels/waiting.js').TaskProgress) => void} Tell gets how far a step is */
 
 /** Number of rulings along the longest side of the mesh, which sets their separation. */

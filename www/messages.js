@@ -2,9 +2,8 @@
 import { count, number, percent, percentAtMost, seconds, shortLambda } from './format.js';
 import { plainMessage } from './error-messages.js';
 
-/** @import {MeshSurface} from './mesh-fit.js' */
 /** @typedef {import('../pkg/types.js').Assumption} Assumption */
-/** @import {Energy, Report, StopReason, Verdict} from './api.js' */
+/** @import {Report, StopReason, Verdict} from '../pkg/types.js' */
 
 /** Why a solve stopped. @type {Record<StopReason, string>} */
 export const STOP_REASONS = {
@@ -238,10 +237,7 @@ export const RUN_WORDS = {
     `${gap !== undefined && gap < MAX_MENTIONED_GAP ? `Within ${percentAtMost(gap)} of the best possible` : TASK_WORDS.solving}, ${count(iterations)} ${iterations === 1 ? 'iteration' : 'iterations'}`,
 };
 
-/**
- * The certificate of a result as one sentence.
- * @param {Report} report
- */
+/** The certificate of a result as one sentence. @param {Report} report */
 export function certificateInWords({ gap, seconds: { total }, stopReason }) {
   const time = seconds(total);
   const within = gap !== undefined && gap < MAX_MENTIONED_GAP ? `proven within ${percentAtMost(gap)} of the best possible` : '';
@@ -254,10 +250,11 @@ export function certificateInWords({ gap, seconds: { total }, stopReason }) {
 
 /**
  * The reduction of the noise as a sentence.
- * @param {number | undefined} factor error of the input divided by that of the result; undefined if the truth is unknown
+ * @param {{ before: number, after: number } | null} [accuracy] errors of the input and of the result; none if the truth is unknown
  */
-export function noiseReductionInWords(factor) {
-  if (factor === undefined) return '';
+export function noiseReductionInWords(accuracy) {
+  if (!accuracy?.before || !accuracy.after) return '';
+  const factor = accuracy.before / accuracy.after;
   if (factor >= 1.05) return `${factor >= 10 ? count(factor) : factor.toFixed(1)}× less noise (against the noise-free example).`;
   return 'No less noise (against the noise-free example).';
 }
@@ -295,10 +292,7 @@ export function lambdaHint(lambda) {
 /** Hint for automatic λ, before it is chosen. */
 export const AUTO_LAMBDA_HINT = 'The page chooses λ from the noise of the input. This takes a few more solves.';
 
-/**
- * How λ was chosen automatically; empty if it was given.
- * @param {Report} report
- */
+/** How λ was chosen automatically; empty if it was given. @param {Report} report */
 export function lambdaChoiceInWords({ lambda, lambdaChoice }) {
   if (!lambdaChoice) return '';
   const { reason, sigma, step, solves, correlationLength, ambiguous, residualExceedsNoise, residualRatio, tolerance, offsetRows, offsetColumns } = lambdaChoice;

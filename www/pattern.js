@@ -2,13 +2,9 @@
 import { hasCode } from './error-messages.js';
 import { count, number, numberAgainst, percent } from './format.js';
 
-/** @import {Analyses} from './analyses.js' */
-/** @import {Result} from './session.js' */
-/** @typedef {import('../pkg/types.js').Drawing} Drawing */
-
 /**
  * Options of a pattern, with lengths in millimetres; `side` is the longer side of the finished surface.
- * @typedef {{ side: number } & Pick<import('../pkg/types.js').PatternOptions, 'tabs' | 'thickness' | 'innerRadius' | 'kFactor' | 'assembly'>
+ * @typedef {{ side: number } & Pick<PatternOptions, 'tabs' | 'thickness' | 'innerRadius' | 'kFactor' | 'assembly'>
  *   & Pick<import('../pkg/types.js').MeshPatternOptions, 'cut' | 'join'>} CutOptions
  */
 
@@ -20,11 +16,6 @@ const DEFAULT_FINISHED_SIDE_MM = 180;
 /** Longer side of a result seen from above, in the unit of its input. @param {Result} result */
 export function longerSide({ input: { width, height, pixelSize } }) {
   return Math.max(width, height) * pixelSize;
-}
-
-/** The suggested longer side of a finished surface, in millimetres. @param {Result} result */
-export function suggestedSideOf(result) {
-  return suggestedSide(longerSide(result), result.input.unit);
 }
 
 /** Millimetres per unit of length. */
@@ -63,7 +54,7 @@ export function lengthUnitOf({ unit, kind }) {
  * @param {Analyses} analyses
  * @param {Result} result
  * @param {CutOptions} options
- * @param {import('./mesh-fit.js').Tell} tell
+ * @param {Tell} tell
  * @returns {Promise<Drawing>}
  */
 export async function cutSheets(analyses, result, { side, ...options }, tell) {
@@ -119,7 +110,7 @@ export function sheetFigures({ width, height, summary: { cutLength, mountainLeng
 
 /**
  * Displays a drawing as an image element, made from the SVG file.
- * @param {import('./api.js').Api} api
+ * @param {Api} api
  * @param {Drawing} drawing
  */
 export async function drawingImage(api, drawing) {
@@ -141,8 +132,9 @@ export async function drawingImage(api, drawing) {
 }
 
 /** An animation of the assembly, as a GLB file. @param {Drawing} drawing */
-export function assemblyModel(drawing) {
-  return assemblyOf(drawing).model;
+export function assemblyModel({ assembly }) {
+  if (!assembly) throw new Error('nothing is said of how it is put together');
+  return assembly.model;
 }
 
 /**
@@ -153,12 +145,6 @@ export function assemblyModel(drawing) {
  */
 export async function assemblyPicture(drawing, up) {
   const { builtPicture } = await import('./surface/built-picture.js');
-  const png = await (await builtPicture(assemblyOf(drawing).model, up)).convertToBlob({ type: 'image/png' });
+  const png = await (await builtPicture(assemblyModel(drawing), up)).convertToBlob({ type: 'image/png' });
   return new Uint8Array(await png.arrayBuffer());
-}
-
-/** @param {Drawing} drawing */
-function assemblyOf({ assembly }) {
-  if (!assembly) throw new Error('nothing is said of how it is put together');
-  return assembly;
 }

@@ -8,8 +8,7 @@
 import { downsample, PREVIEW_SIDE_PIXELS } from './surface/downsampling.js';
 import { callWorker } from './surface/worker-client.js';
 
-/** @import {Api, OpenSolver} from './api.js' */
-/** @import {Input, Settings} from './session.js' */
+/** @import {OpenSolver} from '../pkg/index.js' */
 /** @typedef {{ width: number, height: number, pixelSize: number, data: ArrayLike<number> }} Image */
 /** @typedef {{ input: Input, lambda: number, image: Image }} Preview */
 /** @typedef {{ input: Input, solver: Promise<OpenSolver> }} PreviewLevel */
@@ -144,11 +143,10 @@ export class PreviewSolver {
 
   /** Reduces the heights of an input to fewer pixels. @param {Input} input @param {number} side longer side in pixels */
   async #reducedTo({ width, height, data, pixelSize, heightScale }, side) {
-    if (this.#reduced?.data !== data) this.#reduced = { data, heights: callWorker('downsample', { width, height, data }, PREVIEW_SIDE_PIXELS) };
+    if (this.#reduced?.data !== data) this.#reduced = { data, heights: callWorker('downsample', { width, height, data, pixelSize }, PREVIEW_SIDE_PIXELS) };
     const { heights: reduced } = this.#reduced;
     // It is tried again after a failure.
     reduced.catch(() => (this.#reduced = null));
-    const heights = downsample(await reduced, side);
-    return { ...heights, pixelSize: (pixelSize * width) / heights.width, heightScale };
+    return { ...downsample(await reduced, side), heightScale };
   }
 }

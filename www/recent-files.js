@@ -1,6 +1,5 @@
 /** Storage of the files that were opened last, in IndexedDB, so that a reload of the page can open them again. */
 
-/** @import {PageState} from './page/session.js' */
 /** @typedef {{ id?: number, files: File[], time: number, arePhotos?: boolean }} RecentFiles `arePhotos`: whether they are photos of pages */
 /** @typedef {{ id: number, states: (PageState | null)[] }} StoredOutlines outlines of the photos of an entry, which change more often than the files */
 
@@ -92,11 +91,6 @@ export async function storeFiles(opened, { arePhotos, id: replacedId } = {}) {
     // A private window, or a full disk: the page works without the storage.
     return undefined;
   }
-}
-
-/** @param {readonly File[]} files */
-export function namesOf(files) {
-  return files.map(({ name }) => name).join(', ');
 }
 
 /** A key that is equal for equal files. @param {readonly File[]} files */

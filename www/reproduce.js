@@ -2,8 +2,6 @@
 import { noDataOptions } from './no-data.js';
 import { spacingOf } from './session.js';
 
-/** @import {Input, Result} from './session.js' */
-
 /** Whether the heights are those of a file or an example. @param {Input} input */
 function isUnchanged({ sampling, depths }) {
   return !(sampling || depths);

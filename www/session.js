@@ -5,14 +5,14 @@
  * been solved, every change of a setting solves it again, so that the result always belongs to the settings shown.
  * Until a result is ready, and while a slider is dragged, `preview.js` shows approximate results.
  */
-import { nextTask } from './dom.js';
 import { Events } from './events.js';
 import { PreviewSolver } from './preview.js';
 import { derivedOf } from './surface/derived-data.js';
 
 /** @import {Preview} from './preview.js' */
 /** @import {Accuracy, Image} from './surface/derived-data.js' */
-/** @import {Api, Energy, ExampleName, ExampleOptions, Heightfield, Mesh, OpenSolver, Progress, SampledMesh, SampleMeshOptions, Surface} from './api.js' */
+/** @import {ExampleOptions, Heightfield, SampledMesh, Surface} from '../pkg/types.js' */
+/** @import {OpenSolver} from '../pkg/index.js' */
 
 /**
  * @typedef {object} Input
@@ -25,7 +25,7 @@ import { derivedOf } from './surface/derived-data.js';
  * @property {string} [unit] unit of lengths, if known
  * @property {Heightfield & Partial<SampledMesh> & { heights: Float64Array }} [lattice] solved instead of the pixels, which then only display it
  * @property {{ file: File, names: readonly string[], name: string }} [array] the array that is open, for a file with several
- * @property {MeshSampling} [sampling] for heights that were sampled from a mesh
+ * @property {{ mesh: Mesh, options: SampleMeshOptions }} [sampling] for heights that were sampled from a mesh
  * @property {Float64Array} [truth] the surface without noise, if known
  * @property {string} [kind] kind of file, in words; an example has none
  * @property {string} [file] name of the file of heights
@@ -38,13 +38,6 @@ import { derivedOf } from './surface/derived-data.js';
  * @property {{ name: string, image: ImageData }} [photo] photo that was opened together with it
  * @property {Input} [depthSource] depths from which the mesh was built
  * @property {string} [cameraAssumption] message that says what was assumed about the camera of the depths
- */
-
-/**
- * The mesh that heights were sampled from.
- * @typedef {object} MeshSampling
- * @property {Mesh} mesh
- * @property {SampleMeshOptions} options
  */
 
 /**
@@ -69,7 +62,7 @@ import { derivedOf } from './surface/derived-data.js';
  * @property {Result} result
  * @property {null} cleared the last result was discarded because another input was opened
  * @property {Phase} phase
- * @property {import('./messages.js').Task | null} opening a file is being opened, by this task; null when that has ended
+ * @property {Task | null} opening a file is being opened, by this task; null when that has ended
  * @property {null} unsolved a run has ended without a result
  * @property {{ doing: string, error: unknown }} failure
  */
@@ -172,11 +165,15 @@ export class Session extends Events {
    * Loads another input and makes it the present one. If loading fails, the present input and its run stay.
    * @param {string} doing what could not be done, for the message if loading fails
    * @param {(signal: AbortSignal) => Promise<Input>} load `signal` aborts when another file is opened instead
-   * @param {import('./messages.js').Task} [task]
+   * @param {Task} [task]
    * @returns {Promise<boolean>} whether the input was opened
    */
   async open(doing, load, task) {
-    const opened = await this.load(doing, async (signal) => {
+    this.cancelOpening();
+    const opening = (this.#opening = new AbortController());
+    const { signal } = opening;
+    if (task) this.emit('opening', task);
+    try {
       const input = await load(signal);
       if (signal.aborted) return false;
       this.#stop();
@@ -186,32 +183,13 @@ export class Session extends Events {
       this.#runRequested = false;
       this.emit('input', input);
       this.emit('cleared', null);
-      return true;
-    }, task);
-    if (this.phase === 'starting') this.#setPhase('idle');
-    return opened ?? false;
-  }
-
-  /**
-   * Loads the contents of a file, and cancels whatever else is being opened. Errors are reported.
-   * @template T
-   * @param {string} doing what could not be done, for the message if loading fails
-   * @param {(signal: AbortSignal) => Promise<T>} load `signal` aborts when another file is opened instead
-   * @param {import('./messages.js').Task} [task]
-   * @returns {Promise<T | undefined>} undefined if it failed or was cancelled
-   */
-  async load(doing, load, task) {
-    this.cancelOpening();
-    const opening = (this.#opening = new AbortController());
-    if (task) this.emit('opening', task);
-    try {
-      const found = await load(opening.signal);
-      return opening.signal.aborted ? undefined : found;
+      return !signal.aborted;
     } catch (error) {
-      if (!opening.signal.aborted) this.fail(doing, error);
-      return undefined;
+      if (!signal.aborted) this.fail(doing, error);
+      return false;
     } finally {
       if (this.#opening === opening) this.cancelOpening();
+      if (this.phase === 'starting') this.#setPhase('idle');
     }
   }
 
@@ -234,10 +212,7 @@ export class Session extends Events {
     if (this.#runRequested) void this.run();
   }
 
-  /**
-   * Changes settings, and solves the input with them if it has been solved before.
-   * @param {Partial<Settings>} change
-   */
+  /** Changes settings, and solves the input with them if it has been solved before. @param {Partial<Settings>} change */
   updateSettings(change) {
     this.settings = { ...this.settings, ...change };
     this.emit('settings', this.settings);
@@ -291,7 +266,7 @@ export class Session extends Events {
     const { coarsening, ...options } = settings;
     try {
       // Copying a large input to the worker takes time: let the browser draw first.
-      if (this.#openSolver?.input !== input) await nextTask();
+      if (this.#openSolver?.input !== input) await new Promise((resolve) => setTimeout(resolve));
       if (this.#job !== job) return;
       const solver = await this.#solverFor(input);
       if (this.#job !== job) return;
@@ -305,7 +280,7 @@ export class Session extends Events {
           if (this.#job === job && !abort.signal.aborted) this.emit('progress', progress);
         },
       });
-      const result = { input, settings, surface, ...await derivedOf({ input, surface }) };
+      const result = { input, settings, surface, ...await derivedOf(input, surface) };
       if (this.#job !== job) return;
       this.#previews.cancel();
       this.result = result;
@@ -381,7 +356,7 @@ export class Session extends Events {
     if (job) {
       job.abort.abort();
       // On a coarser lattice the best surface is no better than a preview, and certifying it takes long.
-      if (isLarge(job.input) && !job.finest) setTimeout(() => this.#job === job && this.#terminateRun(), CANCEL_TIMEOUT_MS);
+      if (isLarge(job.input) && !job.finest) setTimeout(() => this.#job === job && (this.#disposeWorker(), this.#endRun()), CANCEL_TIMEOUT_MS);
     } else if (this.phase === 'running') {
       // The phase is `running` because of previews; the run itself has not begun.
       this.#endRun();
@@ -393,12 +368,6 @@ export class Session extends Events {
     const job = this.#job;
     this.#job = null;
     job?.abort.abort();
-  }
-
-  /** Ends the run together with its worker. */
-  #terminateRun() {
-    this.#disposeWorker();
-    this.#endRun();
   }
 
   /** Ends the run without a result. */
@@ -435,10 +404,7 @@ export function spacingOf({ pixelSize, lattice }, coarsening) {
   return lattice ? {} : { spacing: coarsening * pixelSize };
 }
 
-/**
- * Converts an input to a height image or heightfield of the package.
- * @param {Input} input
- */
+/** Converts an input to a height image or heightfield of the package. @param {Input} input */
 export function heightsOf({ width, height, data, pixelSize, heightScale, lattice }) {
   return lattice ?? { width, height, pixelSize, heightScale, data };
 }

@@ -1,6 +1,5 @@
 /** Which edge of a drawing lies at a place: a fold, which may be cut, or a cut, which may be joined. */
 
-/** @typedef {import('../pkg/types.js').Drawing} Drawing */
 /** @typedef {readonly [number, number]} Place in the drawing's millimetres */
 /** @typedef {[number, number]} Pair numbers of two patches as they are drawn, the smaller one first */
 

@@ -7,9 +7,7 @@ import { suggestedSide } from './pattern.js';
 import { borderEdges, boxOf } from './surface/triangles.js';
 import { zip } from './zip.js';
 
-/** @import {Mesh} from './api.js' */
 /** @import {Format} from './panels/save-dialog.js' */
-/** @import {Worker} from './worker-task.js' */
 
 /**
  * How an open surface becomes a solid; lengths in millimetres.
@@ -75,10 +73,7 @@ function mitreDirections(positions, triangles) {
   return directions;
 }
 
-/**
- * A mesh as a 3MF file, in millimetres.
- * @param {{ positions: Float64Array, triangles: Uint32Array }} mesh
- */
+/** A mesh as a 3MF file, in millimetres. @param {{ positions: Float64Array, triangles: Uint32Array }} mesh */
 async function threeMf({ positions, triangles }) {
   /** @param {ArrayLike<number>} values @param {string} tag @param {readonly string[]} names */
   const elements = (values, tag, names) => Array.from({ length: values.length / 3 }, (_, i) =>
@@ -94,11 +89,11 @@ async function threeMf({ positions, triangles }) {
 /**
  * A surface as formats of the save dialog, solids among them, and the fields for the size of these.
  * @param {object} given
- * @param {import('./api.js').Surface | Mesh} given.surface
+ * @param {import('../pkg/types.js').Surface | Mesh} given.surface
  * @param {number} given.length longest side of its bounding box, in its unit
  * @param {string | null} [given.unit]
  * @param {boolean} given.onBase
- * @param {(worker: Worker) => Promise<Pick<Mesh, 'positions' | 'triangles'>>} given.mesh
+ * @param {(worker: PackageWorker) => Promise<Pick<Mesh, 'positions' | 'triangles'>>} given.mesh
  * @returns {{ formats: Format[], fields: HTMLElement, onChange: (act: () => void) => void }}
  */
 export function surfaceFormats({ surface, length, unit, onBase, mesh }) {
@@ -108,7 +103,7 @@ export function surfaceFormats({ surface, length, unit, onBase, mesh }) {
   });
   const box = make('div', 'pair for-solid', ...fields.nodes());
   let wasOpen = true;
-  /** @param {Worker} worker */
+  /** @param {PackageWorker} worker */
   const solid = async (worker) => {
     const fault = fields.check();
     if (fault) throw new Error(fault);

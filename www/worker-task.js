@@ -1,6 +1,5 @@
 /** Tasks in workers, which can be cancelled. */
 
-/** @import {Api} from './api.js' */
 /** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
 
 /**

@@ -1,7 +1,5 @@
 /** Writes ZIP files. */
 
-/** Polynomial of the CRC-32 checksum, its bits reversed. */
-const CRC_POLYNOMIAL = 0xedb88320;
 /** Version of ZIP that a reader needs, 2.0, and the method of compression, deflate. */
 const [ZIP_VERSION, DEFLATE_METHOD] = [20, 8];
 
@@ -17,9 +15,11 @@ export async function zip(files) {
   let [offset, size] = [0, 0];
   for (const [path, text] of Object.entries(files)) {
     const [name, bytes] = [path, text].map((words) => new TextEncoder().encode(words));
-    const deflated = new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(new CompressionStream('deflate-raw'))).arrayBuffer());
+    // Between a header of ten bytes and the length, gzip has what ZIP needs: the compressed bytes and their checksum.
+    const gzip = new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(new CompressionStream('gzip'))).arrayBuffer());
+    const [deflated, checksum] = [gzip.subarray(10, -8), gzip.subarray(-8, -4)];
     // Version, flags, method, time and date, checksum, lengths.
-    const common = littleEndian([[2, ZIP_VERSION], [2, 0], [2, DEFLATE_METHOD], [4, 0], [4, crc32(bytes)], [4, deflated.length], [4, bytes.length], [2, name.length], [2, 0]]);
+    const common = Uint8Array.of(...littleEndian([[2, ZIP_VERSION], [2, 0], [2, DEFLATE_METHOD], [4, 0]]), ...checksum, ...littleEndian([[4, deflated.length], [4, bytes.length], [2, name.length], [2, 0]]));
     bodies.push('PK\x03\x04', common, name, deflated);
     directory.push('PK\x01\x02', littleEndian([[2, ZIP_VERSION]]), common, littleEndian([[2, 0], [2, 0], [2, 0], [4, 0], [4, offset]]), name);
     offset += 4 + common.length + name.length + deflated.length;
@@ -33,14 +33,4 @@ export async function zip(files) {
 /** Whole numbers of so many bytes each. @param {readonly (readonly [number, number])[]} fields */
 function littleEndian(fields) {
   return Uint8Array.from(fields.flatMap(([length, value]) => Array.from({ length }, (_, i) => (value >>> (8 * i)) & 255)));
-}
-
-/** @param {Uint8Array} bytes */
-function crc32(bytes) {
-  let crc = ~0;
-  for (const byte of bytes) {
-    crc ^= byte;
-    for (let bit = 0; bit < 8; bit++) crc = (crc >>> 1) ^ (crc & 1 ? CRC_POLYNOMIAL : 0);
-  }
-  return ~crc >>> 0;
 }

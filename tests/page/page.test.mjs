@@ -250,7 +250,7 @@ test('cautions and doubts about a flat page are said in sentences', () => {
     ['crumpled', 13, /^The page is crumpled\. /], ['spread', 13, /^This may be an open book/],
   ]);
   for (const [doubt, linesFound, words] of doubts) {
-    const report = /** @type {import('../../www/api.js').PageReport} */ ({ verdict: 'doubtful', doubt, error: 1.8, errorBound: 4.4, lines: 0, linesFound });
+    const report = /** @type {import('../../pkg/types.js').PageReport} */ ({ verdict: 'doubtful', doubt, error: 1.8, errorBound: 4.4, lines: 0, linesFound });
     assert.match(pageErrors(report), words);
     assert.doesNotMatch(pageErrors(report), /off by/);
     assert.match(pageErrors(report, 210), /off by about 4 mm\. Correct the outline/);

@@ -2,9 +2,6 @@
 import { sampledInput } from './inputs.js';
 import { bust, crumpledNote, hall, occludedWall, pleats, rotated, terrain, tiltedCylinder } from './shapes.js';
 
-/** @import {ExampleName} from '../api.js' */
-/** @import {Input, Settings} from '../session.js' */
-
 /**
  * @typedef {object} Card
  * @property {string} id id, which is also its address

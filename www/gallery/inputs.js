@@ -2,7 +2,6 @@
 
 import { rangeOf } from '../surface/compare.js';
 
-/** @import {Input} from '../session.js' */
 /** @import {Heights} from './shapes.js' */
 
 /** Seed of the noise. */
@@ -28,14 +27,9 @@ export function sampledInput(name, heights, size, { noise = 0, voxels, known = n
   return { name, width: size, height: size, data, pixelSize: 1 / size, heightScale: 1, ...(known && { truth }) };
 }
 
-/** Heights at the centres of all pixels. @param {Heights} heights @param {number} size */
+/** Heights at the centres of all pixels, whose coordinates are from the middle of the square, y up. @param {Heights} heights @param {number} size */
 function image(heights, size) {
-  return Float64Array.from({ length: size * size }, (_, i) => heights(...pixelCentre(i, size)));
-}
-
-/** Coordinates of a pixel: from the middle of the square, y up. @param {number} i index of the pixel @param {number} size @returns {[number, number]} */
-function pixelCentre(i, size) {
-  return [(i % size + 0.5) / size - 0.5, 0.5 - (Math.floor(i / size) + 0.5) / size];
+  return Float64Array.from({ length: size * size }, (_, i) => heights((i % size + 0.5) / size - 0.5, 0.5 - (Math.floor(i / size) + 0.5) / size));
 }
 
 /** Heights rounded to voxels. @param {Heights} heights @param {number} count voxels along a side @returns {Heights} */

@@ -3,10 +3,6 @@ import { make } from '../dom.js';
 import { heightsOf } from '../session.js';
 import { Tasks } from '../worker-task.js';
 
-/** @import {Api} from '../api.js' */
-/** @import {Card} from './cards.js' */
-/** @import {Input, Settings} from '../session.js' */
-
 /** Pixels along the longer side of heights that a small picture shows, and the duality gap at which their solve stops. */
 export const THUMBNAIL_SIDE_PIXELS = 120;
 export const THUMBNAIL_GAP = 0.05;

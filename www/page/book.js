@@ -6,11 +6,7 @@ import { flattenReducedPhoto, flattenWholePhoto } from './flatten.js';
 import { pictureFiles } from './paper.js';
 import { openPhoto } from './photo.js';
 
-/** @import {Api} from '../api.js' */
 /** @import {Traces} from './flatten.js' */
-/** @import {PagePhoto} from './photo.js' */
-/** @import {PageSession, PageState} from './session.js' */
-/** @import {Worker} from '../worker-task.js' */
 
 /**
  * @typedef {object} BookPhoto
@@ -68,7 +64,7 @@ export class Book {
    * and their `problem` says why.
    * @param {Api} api
    * @param {PageSession} session session of the photo that is shown
-   * @param {Worker} worker
+   * @param {PackageWorker} worker
    * @param {readonly [number, number] | null} paper size in millimetres; null for true size
    * @param {(index: number) => void} onPhoto called before each photo
    * @returns the picture file and the size of each page

@@ -1,7 +1,7 @@
 /** Texts about photos of pages and their flat pages. */
 import { count, number } from '../format.js';
 
-/** @import {PageReport} from '../api.js' */
+/** @import {PageReport} from '../../pkg/types.js' */
 
 /** Texts about a photo of a page. */
 export const PAGE_WORDS = {
@@ -36,7 +36,7 @@ export const BOOK_WORDS = {
   alone: 'Open it alone',
   unfound: 'I did not find its page. Show this photo and drag the four corners onto the page',
   /** @param {string} problems */
-  without: (problems) => `Without ${problems}.`,
+  without: (problems) => problems && `Without ${problems}.`,
   /** @param {number} n */
   pdf: (n) => `${n === 2 ? 'both' : `all ${count(n)}`} photos, a page each`,
   /** @param {number} n @param {number} all */
@@ -48,10 +48,7 @@ function joinWords(words) {
   return words.length < 2 ? words.join('') : `${words.slice(0, -1).join(', ')} and ${words[words.length - 1]}`;
 }
 
-/**
- * The verdict on a flat page, in a sentence.
- * @param {PageReport} report
- */
+/** The verdict on a flat page, in a sentence. @param {PageReport} report */
 export function pageVerdict({ verdict, model, lines }) {
   const text = lines > 0 ? ' and lines of text' : '';
   switch (verdict) {

@@ -43,10 +43,7 @@ export class Outline {
     this.edges = [upper, lower, side(left, 0), side(right, -1)];
   }
 
-  /**
-   * The quadrilateral of four corners.
-   * @param {readonly Point[]} corners upper left, upper right, lower right, lower left
-   */
+  /** The quadrilateral of four corners. @param {readonly Point[]} corners upper left, upper right, lower right, lower left */
   static fromCorners([ul, ur, lr, ll]) {
     return new Outline(/** @type {Edges} */ ([[ul, ur], [ll, lr], [ul, ll], [ur, lr]].map((ends) => ends.map((place) => nodeAt(place, true)))));
   }
@@ -81,11 +78,6 @@ export class Outline {
     return outline;
   }
 
-  /** A deep copy. */
-  copy() {
-    return Outline.copyOf(this);
-  }
-
   /** Number of pages: 1 or 2. */
   get pages() {
     return this.edges[0].filter(({ corner }) => corner).length - 1;
@@ -97,10 +89,7 @@ export class Outline {
     return [upper[0], upper[upper.length - 1], lower[lower.length - 1], lower[0]];
   }
 
-  /**
-   * The nodes of each page along an edge, corners included.
-   * @param {Edge} edge
-   */
+  /** The nodes of each page along an edge, corners included. @param {Edge} edge */
   spans(edge) {
     const nodes = this.edges[edge];
     const ends = nodes.flatMap(({ corner }, i) => (corner ? [i] : []));
@@ -126,17 +115,14 @@ export class Outline {
 
   /** A copy whose two pages are joined into one. */
   withoutGutter() {
-    const { edges: [upper, lower, left, right] } = this.copy();
+    const { edges: [upper, lower, left, right] } = Outline.copyOf(this);
     const ends = (/** @type {Node[]} */ nodes) => nodes.filter(({ corner }, i) => !corner || i === 0 || i === nodes.length - 1);
     return new Outline([ends(upper), ends(lower), left, right]);
   }
 
-  /**
-   * A copy whose page is divided into two.
-   * @param {readonly [Point, Point]} gutter its ends on the upper and the lower edge
-   */
+  /** A copy whose page is divided into two. @param {readonly [Point, Point]} gutter its ends on the upper and the lower edge */
   withGutter(gutter) {
-    const copy = this.copy();
+    const copy = Outline.copyOf(this);
     gutter.forEach((place, edge) => {
       const added = copy.add(/** @type {Edge} */ (edge), place);
       copy.nodeOf(added).corner = true;
@@ -168,8 +154,8 @@ export class Outline {
       const places = Array.from({ length: KEPT_NODES }, (_, k) => line[Math.round(((k + 1) / (KEPT_NODES + 1)) * (line.length - 1))]);
       nodes.splice(1, 0, ...places.map((place) => nodeAt(place, false)));
     }
-    const axis = chordOf(nodes);
-    const along = (/** @type {{ x: number, y: number }} */ node) => axis[0] * node.x + axis[1] * node.y;
+    const [from, to] = [nodes[0], nodes[nodes.length - 1]];
+    const along = (/** @type {{ x: number, y: number }} */ node) => (to.x - from.x) * node.x + (to.y - from.y) * node.y;
     const found = nodes.findIndex((node) => along(node) > along({ x, y }));
     const node = found <= 0 ? (found === 0 ? 1 : nodes.length - 1) : found;
     nodes.splice(node, 0, nodeAt([x, y], false));
@@ -177,10 +163,7 @@ export class Outline {
     return { edge, node };
   }
 
-  /**
-   * Removes a node that is not a corner.
-   * @param {NodeIndex} which
-   */
+  /** Removes a node that is not a corner. @param {NodeIndex} which */
   remove({ edge, node }) {
     if (this.edges[edge][node]?.corner !== false) return;
     this.edges[edge].splice(node, 1);
@@ -192,10 +175,7 @@ export class Outline {
     return this.edges[edge][node];
   }
 
-  /**
-   * The name of a node for screen readers.
-   * @param {NodeIndex} which
-   */
+  /** The name of a node for screen readers. @param {NodeIndex} which */
   name({ edge, node }) {
     const nodes = this.edges[edge];
     if (!nodes[node].corner) return `Point ${node} of the ${EDGE_NAMES[edge]} edge`;
@@ -207,10 +187,4 @@ export class Outline {
 /** A node at a place. @param {Point} place @param {boolean} corner @returns {Node} */
 function nodeAt([x, y], corner) {
   return { x, y, corner };
-}
-
-/** The vector from the first node to the last. @param {readonly Node[]} nodes */
-function chordOf(nodes) {
-  const [from, to] = [nodes[0], nodes[nodes.length - 1]];
-  return [to.x - from.x, to.y - from.y];
 }

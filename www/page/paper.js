@@ -1,9 +1,4 @@
-/** Paper sizes of flat pages: the most similar size, and the pictures of a PDF's pages. */
-
-import { turnPicture } from './quarter-turn.js';
-
-/** @import {Worker} from '../worker-task.js' */
-/** @import {FlatPage} from './flatten.js' */
+/** Paper sizes of flat pages: the most similar size, and the pictures of a PDF's pages, turned by right angles. */
 
 /** @typedef {keyof typeof PAPERS} PaperName */
 
@@ -29,7 +24,7 @@ export function similarPaper(width, height) {
 
 /**
  * Encodes each page of a flat photo as a picture for a PDF.
- * @param {Worker} worker
+ * @param {PackageWorker} worker
  * @param {FlatPage} flat
  * @param {number} pages number of pages side by side
  * @param {number} quarters clockwise quarter turns of each page
@@ -50,7 +45,7 @@ export async function pictureFiles(worker, flat, pages, quarters, paper, ink = f
 
 /**
  * The columns `from` to `to` of a picture.
- * @param {{ width: number, height: number, data: Uint8ClampedArray<ArrayBuffer> }} picture RGBA
+ * @param {Pixels} picture
  * @param {number} from
  * @param {number} to
  */
@@ -59,4 +54,24 @@ function columnsOf({ width, height, data }, from, to) {
   const part = new Uint8ClampedArray(4 * (to - from) * height);
   for (let row = 0; row < height; row++) part.set(data.subarray(4 * (row * width + from), 4 * (row * width + to)), 4 * row * (to - from));
   return { width: to - from, height, data: part };
+}
+
+/** @typedef {{ width: number, height: number, data: Uint8ClampedArray<ArrayBuffer> }} Pixels RGBA */
+
+/**
+ * A picture turned clockwise.
+ * @param {Pixels} picture
+ * @param {number} quarters number of quarter turns
+ * @returns {Pixels}
+ */
+export function turnPicture(picture, quarters) {
+  if (quarters % 4 === 0) return picture;
+  const { width, height, data } = picture;
+  const from = new Uint32Array(data.buffer, data.byteOffset, width * height);
+  const to = new Uint32Array(width * height);
+  // One quarter turn moves the lower left pixel to the upper left.
+  for (let row = 0; row < height; row++) {
+    for (let col = 0; col < width; col++) to[col * height + height - 1 - row] = from[row * width + col];
+  }
+  return turnPicture({ width: height, height: width, data: new Uint8ClampedArray(to.buffer) }, quarters - 1);
 }

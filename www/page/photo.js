@@ -2,9 +2,8 @@
 import { stemOf } from '../file-kinds.js';
 import { runInWorker } from '../worker-task.js';
 import { readPicture, reducedPhoto } from '../pixels.js';
-import { rescalePixel } from './flatten.js';
+import { rescaleLine } from './flatten.js';
 
-/** @import {Api} from '../api.js' */
 /** @typedef {import('../../pkg/types.js').PageOutlines} PageOutlines */
 /** @typedef {import('../../pkg/types.js').PageOutline} PageOutline */
 
@@ -64,13 +63,10 @@ export async function preparePhoto(api, { width, height, data, film35, assumptio
 
 /** Converts outlines to another scale of the photo. @param {PageOutlines} outlines @param {number} scale @returns {PageOutlines} */
 function rescaleOutlines({ pages, ...found }, scale) {
-  /** @param {[number, number][]} line */
-  const at = (line) => line.map(([x, y]) => /** @type {[number, number]} */ ([rescalePixel(x, scale), rescalePixel(y, scale)]));
-  /** @param {PageOutline['corners']} corners */
-  const moved = (corners) => /** @type {PageOutline['corners']} */ (at(corners));
+  const at = (/** @type {[number, number][]} */ line) => rescaleLine(line, scale);
   return {
     ...found,
     pages: pages.map(({ corners, edges: { top, bottom, left, right }, ...page }) => (
-      { ...page, corners: moved(corners), edges: { top: at(top), bottom: at(bottom), left: at(left), right: at(right) } })),
+      { ...page, corners: /** @type {PageOutline['corners']} */ (at(corners)), edges: { top: at(top), bottom: at(bottom), left: at(left), right: at(right) } })),
   };
 }

@@ -1,13 +1,10 @@
 /** The state of “Flatten a photo of a page” without its elements: a photo, the outline of the page in it, and the options. */
 import { Events } from '../events.js';
-import { PageFlattener, rescalePixel, tracedEdges } from './flatten.js';
+import { flattenReducedPhoto, rescaleLine, tracedEdges } from './flatten.js';
 import { findGutter } from './gutter.js';
 import { EDGE_NAMES, EDGES, Outline } from './outline.js';
 
-/** @import {Api} from '../api.js' */
-/** @typedef {import('../../pkg/types.js').DewarpedPage} DewarpedPage */
 /** @import {Line, Options, Traces, FlattenRequest} from './flatten.js' */
-/** @import {PagePhoto} from './photo.js' */
 /** @import {Edge, NodeIndex} from './outline.js' */
 
 /**
@@ -47,10 +44,10 @@ export class PageSession extends Events {
   /** Number of clockwise quarter turns of the flat page. */
   quarters = 0;
 
-  #flattening;
+  #isFlattening = false;
   /** The newest flat page. @type {DewarpedPage | null} */
   #flat = null;
-  /** @type {FlattenRequest | null} */
+  /** The newest request; null if no page is to be flattened. @type {FlattenRequest | null} */
   #latestRequest = null;
   /** Snapshots from before each change, for undo. @type {Snapshot[]} */
   #history = [];
@@ -61,7 +58,6 @@ export class PageSession extends Events {
   constructor(api) {
     super();
     this.worker = new api.DevelopableWorker();
-    this.#flattening = new PageFlattener(this.worker);
   }
 
   /** Whether no page was detected and no corner was moved by hand yet. */
@@ -109,14 +105,9 @@ export class PageSession extends Events {
     this.#update();
   }
 
-  /** Announces that another photo is being opened: the flat page shown is no longer the one that is wanted. */
-  beginOpening() {
-    this.emit('working', true);
-  }
-
-  /** Announces that no other photo was opened after all. */
-  endOpening() {
-    this.emit('working', false);
+  /** Announces that another photo is being opened, so that the flat page is no longer the one that is wanted; or that none was opened after all. @param {boolean} isOpening */
+  setOpening(isOpening) {
+    this.emit('working', isOpening);
   }
 
   /** Selects another detected page. @param {number} page its index */
@@ -154,14 +145,14 @@ export class PageSession extends Events {
   #saveSnapshot() {
     this.#dragging = false;
     const { outline, movedCorners, pageIndex } = this;
-    this.#history.push({ outline: outline.copy(), movedCorners, pageIndex });
+    this.#history.push({ outline: Outline.copyOf(outline), movedCorners, pageIndex });
   }
 
   /** The state to restore when the photo is shown again; null without an outline. @returns {PageState | null} */
   state() {
     const { outline, movedCorners, pageIndex, quarters } = this;
     const request = this.isPageMissing ? null : this.request();
-    return request && { outline: outline.copy(), movedCorners, pageIndex, quarters, traces: request.traces };
+    return request && { outline: Outline.copyOf(outline), movedCorners, pageIndex, quarters, traces: request.traces };
   }
 
   /** Undoes the last change of the outline. */
@@ -259,8 +250,7 @@ export class PageSession extends Events {
     // While something is dragged, no lines are detected and the earlier ones stay.
     if (!moving) {
       this.traces = tracedEdges(flat, traces, photo.scale);
-      const toPhoto = (/** @type {number} */ at) => rescalePixel(at, 1 / photo.scale);
-      this.foundLines = flat.lines.flat().map((line) => line.map(([x, y]) => [toPhoto(x), toPhoto(y)]));
+      this.foundLines = flat.lines.flat().map((line) => rescaleLine(line, 1 / photo.scale));
     }
     this.emit('flat', { flat, moving });
   }
@@ -269,7 +259,7 @@ export class PageSession extends Events {
   #update(moving = false) {
     const request = this.request(moving);
     if (!request) return;
-    this.#latestRequest = request;
+    this.#latestRequest = this.isPageMissing ? null : request;
     this.traces = request.traces;
     this.emit('outline', { outline: this.outline, moving });
     if (this.isPageMissing) {
@@ -282,18 +272,29 @@ export class PageSession extends Events {
     this.emit('working', true);
     // While something is dragged, each flattening is short.
     if (!moving) this.emit('progress', 0);
-    void this.#flattening.preview(request, (fraction) => this.emit('progress', fraction), (done) => {
-      if (done.request.photo !== this.photo || this.isPageMissing) return;
-      // While nothing is dragged, only the flat page of the newest outline and options is shown.
-      if (done.request !== this.#latestRequest && !done.request.moving) return;
-      if ('flat' in done) this.#showFlat(done.flat, done.request);
-      else {
+    if (!this.#isFlattening) void this.#flattenNewest();
+  }
+
+  /** Flattens the newest request until there is no newer one; those in between are left out. */
+  async #flattenNewest() {
+    this.#isFlattening = true;
+    for (let done = null; this.#latestRequest && this.#latestRequest !== done;) {
+      const request = (done = this.#latestRequest);
+      const isNewest = () => request === this.#latestRequest;
+      try {
+        const flat = await flattenReducedPhoto(this.worker, request, (fraction) => this.emit('progress', fraction));
+        // While nothing is dragged, only the flat page of the newest outline and options is shown.
+        if (request.photo !== this.photo || !this.#latestRequest || !(isNewest() || request.moving)) continue;
+        this.#showFlat(flat, request);
+      } catch (error) {
+        if (!isNewest()) continue;
         [this.foundLines, this.#flat] = [[], null];
-        this.emit('problem', done.error);
+        this.emit('problem', error);
       }
       this.emit('lines', null);
-      if (done.request === this.#latestRequest) this.emit('working', false);
-    });
+      if (isNewest()) this.emit('working', false);
+    }
+    this.#isFlattening = false;
   }
 
   /** The lines of the outline, before they are traced. @returns {Traces} */

@@ -1,19 +1,15 @@
 /** Keeps the page's address up to date with its state, for links, the history and reloads; and lists recent files. */
 import { addressOf, isStart, stateOf } from '../address.js';
 import { isExampleModel } from '../doors/example-model.js';
-import { COPIED_NOTE_MS, element, elements, make, SETTLING_MS } from '../dom.js';
+import { COPIED_NOTE_MS, element, elements, make, makeButton, SETTLING_MS } from '../dom.js';
 import { ADDRESS_WORDS } from '../messages.js';
-import { namesOf, recentFiles, storedFiles, storedOutlines, storeFiles, storeOutlines } from '../recent-files.js';
+import { recentFiles, storedFiles, storedOutlines, storeFiles, storeOutlines } from '../recent-files.js';
 import { showNotice } from './notice.js';
 
 /** @import {State} from '../address.js' */
 /** @import {Mode} from './mode.js' */
-/** @import {Card} from '../gallery/cards.js' */
-/** @import {Session, Settings} from '../session.js' */
 /** @import {BookPhoto} from '../page/book.js' */
-/** @import {PageState} from '../page/session.js' */
 /** @import {StoredHeights} from '../import-interpretation.js' */
-/** @import {MeshFit} from '../mesh-fit.js' */
 
 /**
  * @param {Session} session
@@ -193,16 +189,11 @@ export function addressSyncPanel(session, page) {
     const closed = all.filter(({ id, files }) => id !== openId && !files.some(isExampleModel));
     for (const list of lists) {
       list.hidden = closed.length === 0;
-      list.replaceChildren('Opened before: ', ...closed.map(({ id, files, arePhotos }) => {
-        const button = make('button', 'plain small', namesOf(files));
-        button.type = 'button';
-        button.addEventListener('click', () => {
-          if (!arePhotos) return void page.openHeights(files);
-          page.mode.show('photo');
-          void openStoredPhotos(id);
-        });
-        return button;
-      }));
+      list.replaceChildren('Opened before: ', ...closed.map(({ id, files, arePhotos }) => makeButton('plain small', () => {
+        if (!arePhotos) return page.openHeights(files);
+        page.mode.show('photo');
+        return openStoredPhotos(id);
+      }, files.map(({ name }) => name).join(', '))));
     }
   };
   void updateRecentFiles();

@@ -5,10 +5,10 @@ import { hasCode } from '../error-messages.js';
 import { above, between, fieldsOf } from '../fields.js';
 import { number } from '../format.js';
 import { DEPTH_WORDS } from '../messages.js';
+import { boundsOf } from '../surface/compare.js';
 
-/** @import {Mesh, PhotoCamera} from '../api.js' */
-/** @import {InputOrigin} from '../mesh-sampling.js' */
-/** @import {Input, Session} from '../session.js' */
+/** @import {PhotoCamera} from '../../pkg/types.js' */
+/** @import {InputOrigin} from './mesh.js' */
 
 /** Field of view that is assumed at first, in degrees along the longer side: about that of a phone. */
 const ASSUMED_FIELD_OF_VIEW_DEGREES = 60;
@@ -19,7 +19,7 @@ const FIELDS = {
 
 /**
  * @param {Session} session
- * @param {(origin: InputOrigin, load: (signal: AbortSignal) => Promise<Mesh>, doing: string, task: import('../messages.js').Task) => Promise<boolean>} openLoadedMesh
+ * @param {(origin: InputOrigin, load: (signal: AbortSignal) => Promise<Mesh>, doing: string, task: Task) => Promise<boolean>} openLoadedMesh
  */
 export function cameraPanel(session, openLoadedMesh) {
   const depthCheckbox = element('is-depth', HTMLInputElement);
@@ -40,7 +40,7 @@ export function cameraPanel(session, openLoadedMesh) {
     const input = depthInput();
     if (!input) return;
     about.textContent = fileCamera ? DEPTH_WORDS.camera(fileCamera) : '';
-    const [near, far] = depthRange(input.data).map((depth) => depth * fields.number('camera-scale'));
+    const [near, far] = boundsOf(input.data, 0).map((depth) => depth * fields.number('camera-scale'));
     span.textContent = Number.isFinite(near) ? `With this scale, what is seen is ${number(near)} to ${number(far)} away.` : '';
   };
   /** Shows the fields, filled with a typical camera, whose principal point is the middle of the image. */
@@ -119,15 +119,4 @@ export function cameraPanel(session, openLoadedMesh) {
     panel.hidden = !depthCheckbox.checked;
   });
   return { show, readCamera, backProject };
-}
-
-/** The smallest and the largest depth. @param {Float64Array} data */
-function depthRange(data) {
-  let [near, far] = [Infinity, -Infinity];
-  for (const depth of data) {
-    if (!(depth > 0 && depth < Infinity)) continue;
-    near = Math.min(near, depth);
-    far = Math.max(far, depth);
-  }
-  return [near, far];
 }

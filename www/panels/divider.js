@@ -1,6 +1,5 @@
 /** The divider between input and result over a picture, moved by pointer or keyboard. */
 import { element } from '../dom.js';
-import { clampToUnit } from '../surface/relief.js';
 import { KEY_MOVE_SHARE } from '../surface/zoom.js';
 
 /**
@@ -13,7 +12,7 @@ export function dividerOver(id, [left, right], onMove, share = 0.5) {
   const divider = element(id, HTMLElement);
   /** @param {number} to */
   const move = (to) => {
-    share = clampToUnit(to);
+    share = Math.min(1, Math.max(0, to));
     const percent = Math.round(100 * share);
     divider.style.left = `${100 * share}%`;
     divider.style.setProperty('--share', String(share));

@@ -4,31 +4,19 @@ import { element } from '../dom.js';
 /** @param {(files: File[]) => void} onFiles */
 export function watchDrops(onFiles) {
   const overlay = element('drop', HTMLElement);
-  /** Number of elements entered but not left: a child is entered before its parent is left. */
-  let depth = 0;
-
   /** @param {DragEvent} event */
   const hasFiles = (event) => event.dataTransfer?.types.includes('Files') ?? false;
-  const leave = () => {
-    depth = 0;
-    overlay.hidden = true;
-  };
-
-  addEventListener('dragenter', (event) => {
+  addEventListener('dragover', (event) => {
     if (!hasFiles(event)) return;
-    depth++;
+    event.preventDefault();
     overlay.hidden = false;
   });
-  addEventListener('dragleave', (event) => {
-    if (hasFiles(event) && --depth <= 0) leave();
-  });
-  addEventListener('dragover', (event) => {
-    if (hasFiles(event)) event.preventDefault();
-  });
+  // Nothing of the page is entered where the page itself is left.
+  addEventListener('dragleave', ({ relatedTarget }) => (overlay.hidden ||= relatedTarget === null));
   addEventListener('drop', (event) => {
     if (!hasFiles(event)) return;
     event.preventDefault();
-    leave();
+    overlay.hidden = true;
     void filesOf(event).then((files) => {
       if (files.length > 0) onFiles(files);
     });

@@ -4,7 +4,6 @@ import { isInColour, namesOfLeft, routeFiles } from '../file-routing.js';
 import { FILE_WORDS } from '../messages.js';
 import { showNotice } from './notice.js';
 
-/** @import {Session} from '../session.js' */
 /** @import {Mode} from './mode.js' */
 /** @import {NoticeAction} from './notice.js' */
 

@@ -1,10 +1,7 @@
 /** The gallery: cards with pictures. A card opens an input with settings and a view, and tells its story. */
-import { element, make } from '../dom.js';
+import { element, make, makeButton } from '../dom.js';
 import { CARDS } from '../gallery/cards.js';
 import { drawPicture, cardInput } from '../gallery/pictures.js';
-
-/** @import {Card} from '../gallery/cards.js' */
-/** @import {Session, Settings} from '../session.js' */
 
 /**
  * @param {Session} session
@@ -104,9 +101,7 @@ function addCards(session, list, onChosen) {
   for (const card of CARDS) {
     const canvas = make('canvas', '');
     canvas.setAttribute('aria-hidden', 'true');
-    const button = make('button', 'card', canvas, make('strong', '', card.title), make('span', 'small', card.words), ...(card.figure ? [make('span', 'muted small', `${card.figure} of the paper`)] : []));
-    button.type = 'button';
-    button.addEventListener('click', () => onChosen(card));
+    const button = makeButton('card', () => onChosen(card), canvas, make('strong', '', card.title), make('span', 'small', card.words), ...(card.figure ? [make('span', 'muted small', `${card.figure} of the paper`)] : []));
     list.append(button);
     // The picture is drawn when the card is scrolled into view.
     new IntersectionObserver((entries, observer) => {

@@ -4,10 +4,6 @@ import { count } from '../format.js';
 import { certificateInWords, HEADLINE_WORDS, noiseReductionInWords, piecesInWords } from '../messages.js';
 import { hideNotice, showError } from './notice.js';
 
-/** @import {Analyses} from '../analyses.js' */
-/** @import {Result, Session} from '../session.js' */
-/** @import {Stage, Subject} from './stage.js' */
-
 /** Delay before the pieces of a result are counted, in milliseconds: while λ is dragged, results follow each other quickly. */
 const PIECE_COUNT_DELAY_MS = 150;
 /** Maximum number of attempts to count the pieces: other analyses may cancel one. */
@@ -84,11 +80,5 @@ export function headlinePanel(session, analyses, stage, heights) {
 function detailsOf({ input, result }) {
   if (!input) return '';
   const report = result?.input === input ? result.surface.report : null;
-  return [report ? noiseReductionInWords(noiseReduction(/** @type {Result} */ (result))) : `${count(input.width * input.height)} pixels.`, input.cameraAssumption].filter(Boolean).join(' ');
-}
-
-/** Error of the input divided by the error of the result; undefined if the truth is unknown. @param {Result} result */
-function noiseReduction({ accuracy }) {
-  const { before, after } = accuracy ?? { before: 0, after: 0 };
-  return before > 0 && after > 0 ? before / after : undefined;
+  return [report ? noiseReductionInWords(result?.accuracy) : `${count(input.width * input.height)} pixels.`, input.cameraAssumption].filter(Boolean).join(' ');
 }

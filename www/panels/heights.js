@@ -1,5 +1,5 @@
 /** Heights and their result on the stage: the surfaces in space, previews of the result, and the views of it. */
-import { heightReading, number, shortLambda } from '../format.js';
+import { number, shortLambda } from '../format.js';
 import { heightAt, heightfieldBox, reliefMesh, reliefOf } from '../surface/relief.js';
 import { curvature, overHeights } from '../views/curvature.js';
 import { patchesOfHeights } from '../views/patches.js';
@@ -9,11 +9,9 @@ import { rulings } from '../views/rulings.js';
 import { offerFile, offerResultSheets } from './save.js';
 import { stagePanel } from './stage.js';
 
-/** @import {Analyses} from '../analyses.js' */
-/** @import {Input, Result, Session} from '../session.js' */
 /** @import {Relief} from '../surface/relief.js' */
 /** @import {Look} from '../surface/scene.js' */
-/** @import {Subject, View} from './stage.js' */
+/** @import {View} from './stage.js' */
 
 /** Steel, seen at an angle. @type {Look} */
 const STEEL_LOOK = { up: [0, 0, 1], direction: [0.375, 0.687, -0.622], isMetal: true, isSeenFromAbove: true };
@@ -26,7 +24,7 @@ export function heightsPanel(session, analyses) {
   /** @type {ReturnType<Subject['mark']>} */
   let mark = '';
 
-  /** @param {(result: Result, tell: import('../mesh-fit.js').Tell) => ReturnType<View>} prepare @returns {View} */
+  /** @param {(result: Result, tell: Tell) => ReturnType<View>} prepare @returns {View} */
   const ofResult = (prepare) => (tell) => prepare(/** @type {Result} */ (session.result), tell);
   /** @param {'gaussian' | 'kappa2'} what */
   const curvatureView = (what) => ofResult(async (result) => curvature(what, result.input.unit, await analyses.curvatures(result), overHeights(result.input, what)));
@@ -56,7 +54,8 @@ export function heightsPanel(session, analyses) {
     offers: (view) => view !== 'photo' || (session.input !== null && hasColours(session.input)),
     read: ({ after, point: [x, y] }, value) => {
       const relief = reliefs[after ? 1 : 0];
-      return relief ? heightReading(heightAt(relief, x, y), session.input?.unit, value) : '';
+      const height = relief ? heightAt(relief, x, y) : NaN;
+      return Number.isNaN(height) ? '' : [`height ${number(height)} ${session.input?.unit ?? 'units'}`, value].filter(Boolean).join(' · ');
     },
     stop: () => analyses.stop(),
     run: () => void session.run(),

@@ -18,10 +18,7 @@ import { surfaceFormats } from '../solid.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
 
-/** @import {Mesh} from '../api.js' */
-/** @import {Session} from '../session.js' */
-/** @import {MeshSurface, MeshFit} from '../mesh-fit.js' */
-/** @import {Stage, Subject, View} from './stage.js' */
+/** @import {View} from './stage.js' */
 
 /** Kinds of files whose programs take y for the axis that points upwards; those of the others take z. */
 const Y_UP_KINDS = ['OBJ', 'GLB', 'GLTF'];
@@ -41,7 +38,7 @@ export function meshFitPanel(session, meshFit, stage, heights) {
   /** The axis of the mesh that points upwards. */
   const upAxis = () => (Y_UP_KINDS.includes(session.input?.kind ?? '') ? 'y' : 'z');
   const stem = () => `${session.input?.name ?? 'mesh'}-developable`;
-  /** @param {(surface: MeshSurface, mesh: Mesh, tell: import('../mesh-fit.js').Tell) => ReturnType<View>} prepare @returns {View} */
+  /** @param {(surface: MeshSurface, mesh: Mesh, tell: Tell) => ReturnType<View>} prepare @returns {View} */
   const ofSurface = (prepare) => (tell) => prepare(/** @type {MeshSurface} */ (meshFit.surface), /** @type {Mesh} */ (meshFit.mesh), tell);
   /** The result, unless it is the input, which has no noise. */
   const fitted = () => (meshFit.surface?.report.stopReason === 'noNoise' ? null : meshFit.surface);

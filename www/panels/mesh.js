@@ -3,11 +3,10 @@ import { runInWorker } from '../worker-task.js';
 import { element, elements } from '../dom.js';
 import { count, number } from '../format.js';
 import { boundingBoxSides } from '../mesh-fit.js';
-import { openSampledMesh } from '../mesh-sampling.js';
+import { gridOverLattice } from '../surface/lattice.js';
+import { callWorker } from '../surface/worker-client.js';
 
-/** @import {Mesh, SampleMeshOptions} from '../api.js' */
-/** @import {InputOrigin} from '../mesh-sampling.js' */
-/** @import {Input, Session} from '../session.js' */
+/** @typedef {Pick<Input, 'name' | 'kind' | 'photo' | 'depthSource' | 'cameraAssumption'>} InputOrigin */
 
 /** @param {Session} session */
 export function meshPanel(session) {
@@ -44,7 +43,7 @@ export function meshPanel(session) {
      * @param {InputOrigin} origin
      * @param {(signal: AbortSignal) => Promise<Mesh>} load
      * @param {string} doing what could not be done, for the message if it fails
-     * @param {import('../messages.js').Task} [task]
+     * @param {Task} [task]
      */
     openLoaded: (origin, load, doing, task) => openSampledMesh(session, origin, load, { view: 'best-fit' }, doing, task),
     /**
@@ -63,6 +62,28 @@ export function meshPanel(session) {
       }, `“${file.name}” could not be read`, 'reading');
     },
   };
+}
+
+/**
+ * Samples a mesh from a view and opens its heights as the input.
+ * @param {Session} session
+ * @param {InputOrigin} origin
+ * @param {(signal: AbortSignal) => Promise<Mesh>} load
+ * @param {SampleMeshOptions} options
+ * @param {string} doing what could not be done, for the message if it fails
+ * @param {Task} [task]
+ */
+function openSampledMesh(session, origin, load, options, doing, task) {
+  return session.open(doing, async (signal) => {
+    const mesh = await load(signal);
+    const lattice = await runInWorker(session.api, signal, (worker) => worker.sampleMesh(mesh, options));
+    const grid = gridOverLattice(lattice);
+    const data = await callWorker('interpolateToGrid', lattice, lattice.heights, grid);
+    if (!lattice.heights.some(Number.isFinite)) throw new Error('nothing of it is seen from there');
+    const texture = lattice.texture && await session.api.readPhoto(lattice.texture);
+    const photo = texture ? { name: origin.name, image: new ImageData(texture.data, texture.width) } : origin.photo;
+    return { ...origin, photo, ...grid, heightScale: 1, data, lattice, unit: lattice.unit ?? undefined, assumptions: mesh.assumptions, sampling: { mesh, options } };
+  }, task);
 }
 
 /** @param {Input} input @returns {InputOrigin} */

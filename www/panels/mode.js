@@ -1,7 +1,6 @@
 /** Shows one part of the page: the first screen, heights and meshes, or photos of pages. */
 import { element } from '../dom.js';
 
-/** @import {Session} from '../session.js' */
 /** @typedef {'home' | 'heights' | 'photo'} Mode */
 
 /** The guide to each job. */

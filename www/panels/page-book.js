@@ -1,5 +1,5 @@
 /** Buttons for the photos of a book: one for each photo, and those that move or remove the present one. */
-import { element, make } from '../dom.js';
+import { element, make, makeButton } from '../dom.js';
 import { BOOK_WORDS } from '../page/messages.js';
 
 /** @import {Book} from '../page/book.js' */
@@ -18,12 +18,7 @@ const thumbnails = new WeakMap();
 export function pageBookPanel(book, show, remove, onMoved) {
   const list = element('book', HTMLElement);
   /** @param {string} label @param {() => void} act @param {boolean} [enabled] */
-  const action = (label, act, enabled = true) => {
-    const button = make('button', 'plain', label);
-    Object.assign(button, { type: 'button', disabled: !enabled });
-    button.addEventListener('click', act);
-    return button;
-  };
+  const action = (label, act, enabled = true) => Object.assign(makeButton('plain', act, label), { disabled: !enabled });
   /** @param {-1 | 1} step */
   const move = (step) => {
     book.move(step);
@@ -36,13 +31,11 @@ export function pageBookPanel(book, show, remove, onMoved) {
     list.hidden = photos.length < 2;
     if (list.hidden) return list.replaceChildren();
     const buttons = photos.map(({ file, problem }, i) => {
-      const button = make('button', 'page-button', thumbnailOf(file), make('span', '', `${i + 1} ${file.name}`));
-      button.type = 'button';
+      const button = makeButton('page-button', () => show(i), thumbnailOf(file), make('span', '', `${i + 1} ${file.name}`));
       button.title = problem ? `${file.name}: ${problem}` : file.name;
       button.setAttribute('aria-label', BOOK_WORDS.page(i + 1, file.name, problem));
       button.setAttribute('aria-pressed', String(i === index));
       button.toggleAttribute('data-problem', problem !== undefined);
-      button.addEventListener('click', () => show(i));
       return button;
     });
     list.replaceChildren(make('span', '', BOOK_WORDS.photos(photos.length)), ...buttons, make('span', 'several',

@@ -4,7 +4,6 @@ import { above, fieldsOf } from '../fields.js';
 import { SAVE_WORDS } from '../messages.js';
 import { PAPERS } from '../page/paper.js';
 
-/** @import {PageSession} from '../page/session.js' */
 /** @typedef {import('../../pkg/types.js').DewarpPageOptions} Options */
 
 const { a4, letter } = SAVE_WORDS.papers;

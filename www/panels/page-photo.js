@@ -1,5 +1,5 @@
 /** The photo of a page with its outline, whose points are dragged, and the lines of text that were found. */
-import { element, matchDevicePixels, make } from '../dom.js';
+import { element, matchDevicePixels, makeButton } from '../dom.js';
 import { number } from '../format.js';
 import { assumedInWords } from '../messages.js';
 import { PAGE_WORDS } from '../page/messages.js';
@@ -7,7 +7,6 @@ import { Handles } from '../page/handles.js';
 import { EDGES } from '../page/outline.js';
 import { canvasFromImage } from '../surface/layer.js';
 
-/** @import {PageSession} from '../page/session.js' */
 /** @import {Edge, NodeIndex} from '../page/outline.js' */
 /** @import {Line} from '../page/handles.js' */
 
@@ -83,12 +82,7 @@ export function pagePhotoPanel(session) {
     box.hidden = false;
     const { verdict, pages } = photo.outlines;
     several.hidden = verdict !== 'several' || pages.length < 2;
-    several.replaceChildren(PAGE_WORDS.several, ...pages.map((_, i) => {
-      const button = make('button', '', PAGE_WORDS.choosePage(i + 1));
-      button.type = 'button';
-      button.addEventListener('click', () => session.choosePage(i));
-      return button;
-    }));
+    several.replaceChildren(PAGE_WORDS.several, ...pages.map((_, i) => makeButton('', () => session.choosePage(i), PAGE_WORDS.choosePage(i + 1))));
     element('page-empty', HTMLElement).hidden = true;
     assumed.textContent = assumedInWords(photo.assumptions);
     assumed.hidden = assumed.textContent === '';

@@ -3,8 +3,7 @@ import { stemOf } from '../file-kinds.js';
 import { element, make } from '../dom.js';
 import { capitalised, number, percent } from '../format.js';
 import { flattenWholePhoto } from '../page/flatten.js';
-import { PAPERS, pictureFiles, similarPaper } from '../page/paper.js';
-import { turnPicture } from '../page/quarter-turn.js';
+import { PAPERS, pictureFiles, similarPaper, turnPicture } from '../page/paper.js';
 import { imagePicture, PictureView } from '../surface/picture-view.js';
 import { canvasFromImage } from '../surface/layer.js';
 import { figures } from '../views/legend.js';
@@ -14,11 +13,6 @@ import { dividerOver } from './divider.js';
 import { offerToSave } from './save-dialog.js';
 import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
 
-/** @import {Api} from '../api.js' */
-/** @import {Worker} from '../worker-task.js' */
-/** @import {DewarpedPage, FlatPage} from '../page/flatten.js' */
-/** @import {PageSession} from '../page/session.js' */
-/** @import {Picture} from '../surface/picture-view.js' */
 /** @import {Book} from '../page/book.js' */
 /** @import {PaperName} from '../page/paper.js' */
 
@@ -55,10 +49,6 @@ export function pageResultPanel(api, session, book, onWritten) {
     if (fraction === 0) flattening.begin('flattening');
     else flattening.tell({ fraction });
   });
-  /** @param {boolean} ready */
-  const enable = (ready) => {
-    save.disabled = !ready;
-  };
   /** @param {string} sentence @param {string} [details] */
   const say = (sentence, details = '') => {
     clearTimeout(workingTimer);
@@ -74,7 +64,7 @@ export function pageResultPanel(api, session, book, onWritten) {
     caption.textContent = '';
     about.replaceChildren();
     facts.hidden = proposal.hidden = true;
-    enable(false);
+    save.disabled = true;
   };
   session.on('photo', ({ file }) => {
     before = null;
@@ -93,7 +83,7 @@ export function pageResultPanel(api, session, book, onWritten) {
     flattening.end();
     if (!working) [verdict.textContent, detail.textContent] = said;
     if (isMoving) return;
-    enable(!working && shown !== null);
+    save.disabled = working || shown === null;
     // Until the new flat page is there, nothing is said of the old one.
     if (!working) return;
     workingTimer = window.setTimeout(() => {
@@ -120,7 +110,7 @@ export function pageResultPanel(api, session, book, onWritten) {
     divider.show(before !== null);
     empty.hidden = true;
     // The result of a drag that is over already must not be saved in place of the final one.
-    if (moving && isMoving) enable(true);
+    if (moving && isMoving) save.disabled = false;
     // During a drag the page is flattened without its lines of text, so that the figures would differ.
     if (moving) return;
     caption.textContent = flat.unit === 'mm' ? sizeOf(flat, session.quarters) : '';
@@ -159,7 +149,7 @@ export function pageResultPanel(api, session, book, onWritten) {
     /** The flat page with all pixels of the photo, which is made once for all formats. @type {FlatPage | null} */
     let flat = null;
     /** @param {'png' | 'jpeg'} format */
-    const writeImage = (format) => async (/** @type {Worker} */ worker) => {
+    const writeImage = (format) => async (/** @type {PackageWorker} */ worker) => {
       flat ??= await flattenWholePhoto(worker, wish, found);
       return worker.writePhoto({ ...flat, ...turnPicture(flat, quarters) }, { format });
     };
@@ -167,7 +157,7 @@ export function pageResultPanel(api, session, book, onWritten) {
       title: 'Flat page',
       stem: `${wish.photo.name}-flat`,
       formats: [
-        { value: 'pdf', name: 'PDF', ...(several && { stem: `${title}-pages`, note: () => withoutInWords(book) }), words: several ? BOOK_WORDS.pdf(book.photos.length) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker) => {
+        { value: 'pdf', name: 'PDF', ...(several && { stem: `${title}-pages`, note: () => BOOK_WORDS.without(book.problemsInWords()) }), words: several ? BOOK_WORDS.pdf(book.photos.length) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker) => {
           const size = paper.value === '' ? null : PAPERS[/** @type {PaperName} */ (paper.value)];
           if (several) return worker.writeBook(await book.flatPages(api, session, worker, size, showProgress).finally(onWritten), { title });
           flat ??= await flattenWholePhoto(worker, wish, found);
@@ -207,12 +197,6 @@ function paintBefore(context, picture, share, ratio) {
   picture.paint(context, ratio);
 }
 
-/** The photos that are not in the PDF of a book as a sentence; empty if all are. @param {Book} book */
-function withoutInWords(book) {
-  const problems = book.problemsInWords();
-  return problems && BOOK_WORDS.without(problems);
-}
-
 /** Size of the flat page in words. @param {DewarpedPage} flat @param {number} quarters number of quarter turns */
 function sizeOf({ size, unit }, quarters) {
   const [wide, high] = quarters % 2 === 0 ? size : size.toReversed();
@@ -223,25 +207,20 @@ function sizeOf({ size, unit }, quarters) {
  * Figures of the flat page: names and values.
  * @param {DewarpedPage} flat
  * @param {number} quarters number of quarter turns
- * @param {import('../page/photo.js').PagePhoto | null} photo
+ * @param {PagePhoto | null} photo
  * @returns {[string, string][]}
  */
 function factsOf(flat, quarters, photo) {
-  const { verdict, error, errorBound, focalLength, linesFound } = flat.report;
+  const { verdict, error, errorBound, focalLength, linesFound, linesDisagreement } = flat.report;
   const { scale = 1, film35 } = photo ?? {};
   const isOtherKind = verdict === 'notThisKind';
   return [
     ['Likely error', isOtherKind ? '–' : `${percent(error / 100)} of the width`],
     ['95 % limit', isOtherKind ? '–' : percent(errorBound / 100)],
-    ...(linesFound === 0 ? [] : [/** @type {[string, string]} */ (['Lines of text', linesInWords(flat.report)])]),
+    ...(linesFound === 0 ? [] : [/** @type {[string, string]} */ (['Lines of text', `${linesFound} found, off by ${percent(linesDisagreement / 100)}`])]),
     ['Focal length', `${number(focalLength / scale, 4)} pixels, ${film35 === undefined ? 'by the perspective' : 'as the photo’s file says'}`],
     [flat.unit === 'mm' ? 'Size' : 'Width to height', sizeOf(flat, quarters)],
   ];
-}
-
-/** The lines of text in words. @param {DewarpedPage['report']} report */
-function linesInWords({ linesFound, linesDisagreement }) {
-  return `${linesFound} found, off by ${percent(linesDisagreement / 100)}`;
 }
 
 /** The message of an error as a sentence. @param {unknown} error */

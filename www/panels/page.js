@@ -13,10 +13,7 @@ import { pagePhotoPanel } from './page-photo.js';
 import { pageResultPanel } from './page-result.js';
 import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
 
-/** @import {Api} from '../api.js' */
 /** @import {BookPhoto} from '../page/book.js' */
-/** @import {PagePhoto} from '../page/photo.js' */
-/** @import {PageState} from '../page/session.js' */
 
 /** Example photos, whose focal length for 35 mm film is that of their camera. @type {Record<string, { address: URL, pages: number }>} */
 const EXAMPLES = {
@@ -39,7 +36,7 @@ export function pagePanel(api, onOpened, onChanged) {
   let opening = null;
   const waiting = waitingPanel(element('page-opening', HTMLElement), () => {
     opening?.abort();
-    session?.endOpening();
+    session?.setOpening(false);
     waiting.end();
   }, PROGRESS_DELAY_MS);
   let storeTimer = 0;
@@ -64,7 +61,7 @@ export function pagePanel(api, onOpened, onChanged) {
   /**
    * Opens a photo in the place of the last one.
    * @param {(signal: AbortSignal) => Promise<PagePhoto>} load
-   * @param {{ pages?: number, task?: import('../messages.js').Task, state?: PageState | null }} [more] `state`: edits of the photo, when it was open before
+   * @param {{ pages?: number, task?: Task, state?: PageState | null }} [more] `state`: edits of the photo, when it was open before
    * @returns {Promise<boolean>} false if it was cancelled, or another photo was opened meanwhile
    * @throws if the photo cannot be opened
    */
@@ -74,7 +71,7 @@ export function pagePanel(api, onOpened, onChanged) {
     const pageSession = ensureSession();
     waiting.end();
     if (task) waiting.begin(task);
-    pageSession.beginOpening();
+    pageSession.setOpening(true);
     try {
       const photo = await load(signal);
       if (signal.aborted) return false;
@@ -83,7 +80,7 @@ export function pagePanel(api, onOpened, onChanged) {
       return true;
     } catch (error) {
       if (signal.aborted) return false;
-      pageSession.endOpening();
+      pageSession.setOpening(false);
       throw error;
     } finally {
       if (!signal.aborted) waiting.end();

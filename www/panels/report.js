@@ -5,11 +5,8 @@ import { ENERGIES, REPRODUCE_WORDS, STOP_REASONS, lambdaChoiceInWords } from '..
 import { asCode, asCommand } from '../reproduce.js';
 import { showError, showNotice } from './notice.js';
 
-/** @import {Analyses} from '../analyses.js' */
-/** @import {Result, Session} from '../session.js' */
-
 /** @typedef {[name: string, value: string, meaning: string]} Row */
-/** @typedef {Pick<import('../api.js').Progress, 'level' | 'iteration' | 'elapsed' | 'gap'>} Moment of a run, as its progress tells */
+/** @typedef {Pick<Progress, 'level' | 'iteration' | 'elapsed' | 'gap'>} Moment of a run, as its progress tells */
 
 /** @param {Session} session @param {Analyses} analyses */
 export function reportPanel(session, analyses) {

@@ -3,10 +3,6 @@ import { element, elements } from '../dom.js';
 import { RUN_WORDS } from '../messages.js';
 import { waitingPanel } from './waiting.js';
 
-/** @import {Session} from '../session.js' */
-/** @import {MeshFit} from '../mesh-fit.js' */
-/** @import {Stage} from './stage.js' */
-
 /** Share of the progress for the coarser lattices. */
 const COARSE_LATTICES_SHARE = 0.25;
 

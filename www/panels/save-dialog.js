@@ -6,9 +6,6 @@ import { plainMessage } from '../error-messages.js';
 import { SAVE_WORDS } from '../messages.js';
 import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
 
-/** @import {Worker} from '../worker-task.js' */
-/** @import {Api} from '../api.js' */
-
 /**
  * @typedef {object} Format
  * @property {string} value ending of the file's name
@@ -18,7 +15,7 @@ import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
  * @property {string} [stem] file name without its ending, where it differs from that of the offer
  * @property {() => string} [note] sentence about the file that was written, such as what it lacks
  * @property {string} [without] reason why the format is not available
- * @property {(worker: Worker) => Promise<Uint8Array<ArrayBuffer> | string>} write
+ * @property {(worker: PackageWorker) => Promise<Uint8Array<ArrayBuffer> | string>} write
  *
  * @typedef {object} SaveOffer
  * @property {string} title

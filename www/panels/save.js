@@ -7,10 +7,6 @@ import { longestLatticeSide } from '../surface/lattice.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
 
-/** @import {Analyses} from '../analyses.js' */
-/** @import {Api} from '../api.js' */
-/** @import {Result} from '../session.js' */
-
 /**
  * Offers the result as a file: images have the pixels of the input, meshes the vertices of the lattice.
  * @param {Api} api

@@ -4,10 +4,6 @@ import { above, between, fieldsOf } from '../fields.js';
 import { shortLambda } from '../format.js';
 import { AUTO_LAMBDA_HINT, ENERGIES, lambdaChoiceInWords, lambdaHint, meshLambdaChoiceInWords } from '../messages.js';
 
-/** @import {Energy} from '../api.js' */
-/** @import {Session, Settings} from '../session.js' */
-/** @import {MeshFit} from '../mesh-fit.js' */
-
 /** The field for λ; its bounds are those that the package checks. */
 const LAMBDA_FIELD = { 'lambda-value': { label: 'λ as a number', range: { ...between(1e-12, 1e15, 'from 10⁻¹² to 10¹⁵'), isWide: true }, optional: true, placeholder: 'auto' } };
 /** Further options of the solver. */

@@ -1,5 +1,5 @@
 /** Dialog of sheets to cut out: size, paper, material and tabs, with a preview of the drawing that is saved. */
-import { element, make, SETTLING_MS } from '../dom.js';
+import { element, make, makeButton, SETTLING_MS } from '../dom.js';
 import { between, fieldsOf } from '../fields.js';
 import { number } from '../format.js';
 import { assemblyModel, assemblyPicture, drawingImage, MAX_SIDE_MM, MIN_SIDE_MM, MM_PER_UNIT, sheetFigures, sheetsInWords, smallestPiece, suggestedSide, trueSide } from '../pattern.js';
@@ -10,10 +10,8 @@ import { figures } from '../views/legend.js';
 import { offerToSave } from './save-dialog.js';
 import { waitingPanel } from './waiting.js';
 
-/** @import {Api} from '../api.js' */
 /** @import {CutOptions, LengthUnit} from '../pattern.js' */
 /** @import {TaskProgress} from './waiting.js' */
-/** @typedef {import('../../pkg/types.js').Drawing} Drawing */
 
 /** Returns the error message for a text of pairs of pieces; empty if it is valid. @param {string} text */
 const faultOfPairs = (text) => (parsePairs(text) ? '' : SHEET_WORDS.wrongPairs);
@@ -112,9 +110,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
     again.focus();
     offer.renew();
   });
-  const again = make('button', '', SHEET_WORDS.cut);
-  Object.assign(again, { type: 'button', hidden: true });
-  again.addEventListener('click', () => void draw());
+  const again = Object.assign(makeButton('', () => draw(), SHEET_WORDS.cut), { hidden: true });
   const about = make('div', '');
   const pageWarning = make('p', 'guess small');
   pageWarning.hidden = true;

@@ -12,10 +12,6 @@ import { cameraPanel } from './camera.js';
 import { meshPanel } from './mesh.js';
 import { showNotice } from './notice.js';
 
-/** @import {ExampleName} from '../api.js' */
-/** @import {Session, Settings} from '../session.js' */
-/** @import {NoData} from '../no-data.js' */
-
 const EXAMPLE_FIELDS = {
   example: { label: 'Example', options: { roof: 'Roof', page: 'Page', house: 'House', oloid: 'Oloid', cone: 'Cone', cylinder: 'Cylinder' } },
   size: { label: 'Size', options: { 100: '100 pixels', 200: '200 pixels', 400: '400 pixels', 700: '700 pixels', 1000: '1000 pixels' }, value: '400' },

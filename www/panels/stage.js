@@ -2,7 +2,7 @@
  * The stage: input and result in space on both sides of a divider, or a flat picture in their place; the choice of a view, what is
  * said of it, and what to do with the result. Heights and whole meshes are subjects that it shows in the same way.
  */
-import { download, element, elements, make, oncePerFrame } from '../dom.js';
+import { download, element, elements, make, makeButton, oncePerFrame } from '../dom.js';
 import { VIEW_WORDS } from '../messages.js';
 import { PictureView } from '../surface/picture-view.js';
 import { SceneView } from '../surface/scene.js';
@@ -12,8 +12,6 @@ import { showError } from './notice.js';
 import { waitingPanel } from './waiting.js';
 
 /** @import {Box, Look, Place, Surface} from '../surface/scene.js' */
-/** @import {ViewContent} from '../surface/layer.js' */
-/** @import {Tell} from '../mesh-fit.js' */
 
 /**
  * @typedef {object} Subject what the stage shows
@@ -194,9 +192,7 @@ export function stagePanel(first) {
     subject.stop();
     waiting.end();
     setBusy({ isPreparing: false });
-    const again = make('button', '', 'Try again');
-    again.type = 'button';
-    again.addEventListener('click', () => void update());
+    const again = makeButton('', update, 'Try again');
     display({ about: [make('p', 'muted', 'Cancelled.'), again] });
     again.focus();
   });

@@ -1,13 +1,11 @@
 /** Results with five λ, as small pictures side by side; a click takes the λ of one. */
-import { element, make } from '../dom.js';
+import { element, make, makeButton } from '../dom.js';
 import { THUMBNAIL_GAP, THUMBNAIL_SIDE_PIXELS } from '../gallery/pictures.js';
 import { shortLambda } from '../format.js';
 import { smoothPatchCount } from '../analyses.js';
 import { STRIP_WORDS } from '../messages.js';
 import { rmsError } from '../surface/compare.js';
 import { downsample } from '../surface/downsampling.js';
-
-/** @import {Input, Session, Settings} from '../session.js' */
 
 /** λ of the five pictures. */
 const STRIP_LAMBDAS = [1e4, 1e5, 1e6, 1e7, 1e8];
@@ -29,9 +27,7 @@ export function stripPanel(session, adopt) {
     const canvas = make('canvas', '');
     canvas.setAttribute('aria-hidden', 'true');
     const figures = make('span', 'muted', '\u00a0');
-    const choice = make('button', 'strip-one', canvas, make('span', '', `λ = ${shortLambda(lambda)}`), figures);
-    choice.type = 'button';
-    choice.addEventListener('click', () => adopt({ ...session.settings, lambda }));
+    const choice = makeButton('strip-one', () => adopt({ ...session.settings, lambda }), canvas, make('span', '', `λ = ${shortLambda(lambda)}`), figures);
     list.append(choice);
     return { lambda, canvas, choice, figures };
   });
@@ -46,7 +42,7 @@ export function stripPanel(session, adopt) {
     job?.abort();
     const mine = (job = new AbortController());
     shownInput = input;
-    const small = reduced(input);
+    const small = { ...downsample(input, THUMBNAIL_SIDE_PIXELS), heightScale: input.heightScale };
     for (const { figures } of pictures) figures.textContent = '\u00a0';
     strip.setAttribute('aria-busy', 'true');
     const worker = new session.api.SolverWorker();
@@ -89,10 +85,4 @@ export function stripPanel(session, adopt) {
     void draw();
   });
   return { show };
-}
-
-/** An input reduced to few pixels. @param {Input} input */
-function reduced({ width, height, data, pixelSize, heightScale }) {
-  const small = downsample({ width, height, data }, THUMBNAIL_SIDE_PIXELS);
-  return { ...small, pixelSize: (pixelSize * width) / small.width, heightScale };
 }

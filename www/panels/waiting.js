@@ -1,5 +1,5 @@
 /** Progress of a task over what it is about, with a button that cancels it. */
-import { make } from '../dom.js';
+import { make, makeButton } from '../dom.js';
 import { count, percent } from '../format.js';
 import { TASK_WORDS } from '../messages.js';
 
@@ -8,7 +8,6 @@ const UPDATE_INTERVAL_MS = 200;
 /** Delay before the progress of a task is shown, in milliseconds: shorter tasks end before anybody could read it. */
 export const PROGRESS_DELAY_MS = 150;
 
-/** @import {Task} from '../messages.js' */
 /** @typedef {{ fraction?: number, label?: string, task?: Task }} TaskProgress share of a step that is done, if that is known; what the step does, in words or as a task */
 
 /**
@@ -22,12 +21,7 @@ export function waitingPanel(panel, cancel, delay = 0) {
   bar.setAttribute('aria-label', 'How far this is');
   const text = make('span', 'muted small');
   panel.append(bar, text);
-  if (cancel) {
-    const button = make('button', '', 'Cancel');
-    Object.assign(button, { type: 'button', id: `${panel.id}-cancel` });
-    button.addEventListener('click', cancel);
-    panel.append(button);
-  }
+  if (cancel) panel.append(Object.assign(makeButton('', cancel, 'Cancel'), { id: `${panel.id}-cancel` }));
   let [start, updateTimer, showTimer] = [0, 0, 0];
   let [task, words] = ['', ''];
   /** Share of the present step that is done; undefined where that is not told. @type {number | undefined} */

@@ -42,10 +42,7 @@ export function readAssemblyMesh(model) {
   return { positions: Float64Array.from(positions), triangles: Uint32Array.from(triangles), sheets: Uint32Array.from(sheets) };
 }
 
-/**
- * The border lines of a mesh: the vertices along each, the first one again at the end.
- * @param {Uint32Array} triangles
- */
+/** The border lines of a mesh: the vertices along each, the first one again at the end. @param {Uint32Array} triangles */
 export function borderLines(triangles) {
   /** @type {Map<number, Set<number>>} */
   const next = new Map();

@@ -5,6 +5,7 @@
  * @property {number} width
  * @property {number} height
  * @property {ArrayLike<number>} data row by row, NaN for no data
+ * @property {number} [pixelSize] 1 unless said otherwise
  */
 
 /** Length of the longer side of the finest preview. */
@@ -15,7 +16,7 @@ export const PREVIEW_SIDE_PIXELS = 384;
  * @param {Heights} image
  * @param {number} maxBlocks maximum number of blocks along the longer side
  */
-export function downsample({ width, height, data }, maxBlocks) {
+export function downsample({ width, height, data, pixelSize = 1 }, maxBlocks) {
   const share = Math.min(1, maxBlocks / Math.max(width, height));
   const [cols, rows] = [Math.max(3, Math.round(width * share)), Math.max(3, Math.round(height * share))];
   const sums = new Float64Array(cols * rows);
@@ -31,5 +32,5 @@ export function downsample({ width, height, data }, maxBlocks) {
     }
   }
   for (let i = 0; i < sums.length; i++) sums[i] /= counts[i];
-  return { width: cols, height: rows, data: sums };
+  return { width: cols, height: rows, data: sums, pixelSize: (pixelSize * width) / cols };
 }

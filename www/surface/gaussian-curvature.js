@@ -41,10 +41,7 @@ export function totalGaussianCurvature({ rows, cols, labels, spacing }, { gaussi
   return kept.reduce((sum, value) => sum + value, 0) * step * spacing * spacing * ROW_SPACING_RATIO;
 }
 
-/**
- * The parts of an analysis that are shown, as 32-bit floats.
- * @param {Analysis} analysis
- */
+/** The parts of an analysis that are shown, as 32-bit floats. @param {Analysis} analysis */
 export function curvaturesOf({ rows, cols, spacing, origin, gaussian, kappa1, kappa2, summary }) {
   return {
     rows, cols, spacing, origin, summary,

@@ -1,7 +1,5 @@
 /** Converts values at the vertices of a hexagonal lattice to images. */
 
-/** @import {Input} from '../session.js' */
-
 /**
  * @typedef {object} Lattice row 0 is at the top; odd rows are shifted to the left by half a spacing
  * @property {number} rows

@@ -2,8 +2,6 @@
 import { nearestVertices } from './lattice.js';
 
 /** @import {Lattice} from './lattice.js' */
-/** @import {Colour} from './colours.js' */
-/** @import {Picture} from './picture-view.js' */
 /** @import {Place, Surface} from './scene.js' */
 /** @import {Colours} from '../views/legend.js' */
 

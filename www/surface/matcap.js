@@ -15,10 +15,7 @@ const LIGHT = { x: -0.38, y: 0.42 };
 /** Colour of paper in full light. */
 const PAPER_COLOUR = [244, 246, 248];
 
-/**
- * Brightness of the studio, 0 to 1, at an angle to the light given by its cosine.
- * @param {number} cosine
- */
+/** Brightness of the studio, 0 to 1, at an angle to the light given by its cosine. @param {number} cosine */
 function studioBrightness(cosine) {
   const room = ((1 + cosine) / 2) ** 2;
   const window = Math.exp((cosine - 1) / 0.13);

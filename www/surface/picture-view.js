@@ -14,15 +14,16 @@ export class PictureView {
   /** @type {Picture | null} */
   #picture = null;
   #zoomedBox;
-  #paintSoon = oncePerFrame(() => this.#paint());
+  /** Paints the picture again with the next frame. */
+  repaint = oncePerFrame(() => this.#paint());
 
   /** @param {HTMLCanvasElement} canvas */
   constructor(canvas) {
     this.canvas = canvas;
-    this.#zoomedBox = makeZoomable(canvas, this.#paintSoon);
+    this.#zoomedBox = makeZoomable(canvas, this.repaint);
     // Without delay, since resizing clears the canvas.
     matchDevicePixels(canvas, () => this.#paint());
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', this.#paintSoon);
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', this.repaint);
   }
 
   /** Shows a picture, or none. @param {Picture | null} picture */
@@ -30,12 +31,7 @@ export class PictureView {
     this.#picture = picture;
     this.canvas.hidden = picture === null;
     if (picture) this.canvas.setAttribute('aria-label', picture.words);
-    this.#paintSoon();
-  }
-
-  /** Paints the picture again with the next frame. */
-  repaint() {
-    this.#paintSoon();
+    this.repaint();
   }
 
   /** The value under the pointer. @param {MouseEvent} event */

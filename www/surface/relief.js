@@ -2,7 +2,6 @@
 import { downsample } from './downsampling.js';
 import { gridOf } from './lattice.js';
 
-/** @import {Input} from '../session.js' */
 /** @import {Box, Surface} from './scene.js' */
 
 /**
@@ -24,11 +23,6 @@ const MAX_SLOW_SIDE_VERTICES = 200;
 const BOX_HEIGHT_SHARE = 0.998;
 /** Number of heights from which the box is computed, about. */
 const BOX_SAMPLE_HEIGHTS = 20_000;
-
-/** The value clamped to 0 to 1. @param {number} value */
-export function clampToUnit(value) {
-  return Math.min(1, Math.max(0, value));
-}
 
 /**
  * The surface of an image of heights on the grid of an input.

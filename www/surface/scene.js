@@ -141,8 +141,15 @@ export class SceneView {
     this.#scene = new three.Scene();
     this.#scene.add(this.#shadowLight, this.#ground);
     addPictureKeys(canvas, {
-      move: (across, up, isShift) => (isShift ? this.#pan(KEY_MOVE_SHARE * canvas.clientWidth * across, -KEY_MOVE_SHARE * canvas.clientHeight * up) : this.turn(KEY_TURN_RADIANS * across, -KEY_TURN_RADIANS * up)),
-      zoom: (factor) => this.#zoom(factor),
+      move: (across, up, isShift) => {
+        if (!isShift) return this.turn(KEY_TURN_RADIANS * across, -KEY_TURN_RADIANS * up);
+        this.#controls.pan(KEY_MOVE_SHARE * canvas.clientWidth * across, -KEY_MOVE_SHARE * canvas.clientHeight * up);
+        this.#controls.update();
+      },
+      zoom: (factor) => {
+        this.#camera.zoom = Math.min(MAX_ZOOM, Math.max(MIN_ZOOM, this.#camera.zoom * factor));
+        this.drawSoon();
+      },
       reset: () => this.look(),
     });
     this.#controls = this.#createControls();
@@ -356,18 +363,6 @@ export class SceneView {
     this.#controls.update();
   }
 
-  /** Moves the picture. @param {number} x @param {number} y in CSS pixels, y down */
-  #pan(x, y) {
-    this.#controls.pan(x, y);
-    this.#controls.update();
-  }
-
-  /** Zooms about the middle. @param {number} factor */
-  #zoom(factor) {
-    this.#camera.zoom = Math.min(MAX_ZOOM, Math.max(MIN_ZOOM, this.#camera.zoom * factor));
-    this.drawSoon();
-  }
-
   /** Sets the direction of view, resets zoom and place, and ends the first turn. @param {Vector} direction */
   setDirection(direction) {
     this.#turning.abort();
@@ -403,29 +398,19 @@ export class SceneView {
     return [((1 + x) / 2) * width, ((1 - y) / 2) * height];
   }
 
-  /** Directs the ray at a place of the canvas. @param {number} x @param {number} y in CSS pixels */
-  #cast(x, y) {
-    this.#prepareCamera();
-    const { width, height } = this.#size;
-    this.#raycaster.setFromCamera({ x: (2 * x) / width - 1, y: 1 - (2 * y) / height }, this.#camera);
-    return this.#raycaster;
-  }
-
-  /** Which side of the divider shows a place of the canvas. @param {number} x in CSS pixels @returns {0 | 1} */
-  #sideAt(x) {
-    return this.#sides[1].surface && x >= this.#divider * this.#size.width ? 1 : 0;
-  }
-
   /**
    * Finds the triangle at a place of the canvas.
    * @param {{ offsetX: number, offsetY: number }} place
    * @returns {Place | null} null without a triangle
    */
   pick({ offsetX, offsetY }) {
-    const side = this.#sideAt(offsetX);
+    const { width, height } = this.#size;
+    const side = this.#sides[1].surface && offsetX >= this.#divider * width ? 1 : 0;
     const { surface } = this.#sides[side];
-    if (!surface?.isMesh || this.#size.width === 0) return null;
-    const [first] = this.#cast(offsetX, offsetY).intersectObject(surface, false);
+    if (!surface?.isMesh || width === 0) return null;
+    this.#prepareCamera();
+    this.#raycaster.setFromCamera({ x: (2 * offsetX) / width - 1, y: 1 - (2 * offsetY) / height }, this.#camera);
+    const [first] = this.#raycaster.intersectObject(surface, false);
     if (!first) return null;
     const { x, y, z } = first.barycoord;
     const { middle, scale } = this.#frame;
@@ -495,11 +480,6 @@ function hasGraphicsCard() {
   const name = String(probe?.getParameter(probe.getExtension('WEBGL_debug_renderer_info')?.UNMASKED_RENDERER_WEBGL ?? probe.RENDERER));
   probe?.getExtension('WEBGL_lose_context')?.loseContext();
   return !/swiftshader|llvmpipe|software|basic render/i.test(name);
-}
-
-/** The position of a vertex. @param {ArrayLike<number>} positions @param {number} vertex @returns {Vector} */
-export function vectorAt(positions, vertex) {
-  return [positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]];
 }
 
 /** An image with steel where it has no colour. @param {HTMLCanvasElement} image */

@@ -1,6 +1,5 @@
 /** Rasterises triangles, faster than a canvas draws many of them, and measures them. */
 
-/** @import {Colour} from './colours.js' */
 /** @import {Box, Place} from './scene.js' */
 
 /**

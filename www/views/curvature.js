@@ -8,9 +8,7 @@ import { callWorker } from '../surface/worker-client.js';
 import { figures } from './legend.js';
 
 /** @import {Curvatures} from '../analyses.js' */
-/** @import {Mesh} from '../api.js' */
-/** @import {Input} from '../session.js' */
-/** @import {Layer, ViewContent} from '../surface/layer.js' */
+/** @import {Layer} from '../surface/layer.js' */
 
 /** @typedef {{ gaussian: ArrayLike<number>, kappa2?: ArrayLike<number>, medianKappa1?: number, summary: { size: number, threshold: number, gaussianAbove: number, medianGaussian: number, medianKappa2?: number } }} Analysis */
 /** @typedef {'gaussian' | 'kappa2'} Curvature */

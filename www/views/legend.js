@@ -29,10 +29,7 @@ function colourBar({ title, scale }) {
   return make('figure', 'scale', make('figcaption', '', title), bar, ticks);
 }
 
-/**
- * A list of figures with their names.
- * @param {readonly (readonly [name: string, value: string])[]} figures
- */
+/** A list of figures with their names. @param {readonly (readonly [name: string, value: string])[]} figures */
 export function figures(figures) {
   return make('dl', 'figures', ...figures.map(([name, value]) =>
     make('div', '', make('dt', '', name), make('dd', '', value))));

@@ -3,8 +3,6 @@ import { areaUnit, count, number, numberAgainst, percent } from '../format.js';
 import { MESH_FIT_WORDS } from '../messages.js';
 import { interpolateAt } from '../surface/triangles.js';
 
-/** @import {Mesh} from '../api.js' */
-/** @import {MeshSurface} from '../mesh-fit.js' */
 /** @import {Place} from '../surface/scene.js' */
 
 /**

@@ -8,11 +8,6 @@ import { vertexColors } from '../surface/triangles.js';
 import { callWorker } from '../surface/worker-client.js';
 import { figures, key } from './legend.js';
 
-/** @import {Mesh} from '../api.js' */
-/** @import {Input} from '../session.js' */
-/** @import {Colour} from '../surface/colours.js' */
-/** @import {ViewContent} from '../surface/layer.js' */
-
 /** Colour of triangles without a patch. @type {Colour} */
 const UNLABELLED_COLOUR = [160, 160, 160];
 

@@ -3,10 +3,6 @@ import { gridOf } from '../surface/lattice.js';
 import { canvasFromImage, canvasFromPixels } from '../surface/layer.js';
 import { callWorker } from '../surface/worker-client.js';
 
-/** @import {Mesh} from '../api.js' */
-/** @import {Input} from '../session.js' */
-/** @import {ViewContent} from '../surface/layer.js' */
-
 /** Minimum length of a layer's longer side, in pixels. */
 const MIN_LAYER_PIXELS = 900;
 

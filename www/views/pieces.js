@@ -2,21 +2,16 @@
 import { make } from '../dom.js';
 import { CREASE_COLOUR, toCss, FOLD_COLOURS } from '../surface/colours.js';
 import { imagePicture } from '../surface/picture-view.js';
-import { suggestedSideOf, sheetFigures, sheetsInWords, cutSheets, drawingImage } from '../pattern.js';
+import { longerSide, suggestedSide, sheetFigures, sheetsInWords, cutSheets, drawingImage } from '../pattern.js';
 import { figures, key } from './legend.js';
 import { sheetOfHeights } from './sheet.js';
-
-/** @import {Analyses} from '../analyses.js' */
-/** @import {Api} from '../api.js' */
-/** @import {Result} from '../session.js' */
-/** @import {ViewContent} from '../surface/layer.js' */
 
 /**
  * The surface laid flat: in one piece if that does not stretch it, else cut into sheets.
  * @param {Api} api
  * @param {Analyses} analyses
  * @param {Result} result
- * @param {import('../mesh-fit.js').Tell} tell
+ * @param {Tell} tell
  * @returns {Promise<ViewContent>}
  */
 export async function flat(api, analyses, result, tell) {
@@ -24,7 +19,7 @@ export async function flat(api, analyses, result, tell) {
   const whole = () => sheetOfHeights(result.input.unit ?? 'units', unrolled);
   if (unrolled.verdict !== 'stretched' || !Number.isFinite((await analyses.patchCount(result)).count)) return whole();
   // If cutting fails, the surface is shown in one piece with its strain.
-  const drawing = await cutSheets(analyses, result, { side: suggestedSideOf(result) }, tell).catch(() => null);
+  const drawing = await cutSheets(analyses, result, { side: suggestedSide(longerSide(result), result.input.unit) }, tell).catch(() => null);
   if (!drawing) return whole();
   const picture = imagePicture(await drawingImage(api, drawing), sheetsInWords(drawing));
   const isFolded = drawing.sheets.some(({ folds }) => folds.length > 0);

@@ -3,9 +3,7 @@ import { count, number, percent } from '../format.js';
 import { toCss } from '../surface/colours.js';
 import { figures, key } from './legend.js';
 
-/** @import {Ruling} from '../api.js' */
-/** @import {Colour} from '../surface/colours.js' */
-/** @import {ViewContent} from '../surface/layer.js' */
+/** @import {Ruling} from '../../pkg/types.js' */
 
 /** Colour of rulings, visible on bright and dark steel. @type {Colour} */
 const RULING_COLOUR = [232, 89, 12];

@@ -7,12 +7,7 @@ import { callWorker } from '../surface/worker-client.js';
 import { VERDICTS } from '../messages.js';
 import { figures } from './legend.js';
 
-/** @import {Analyses} from '../analyses.js' */
-/** @import {Mesh} from '../api.js' */
 /** @typedef {import('../../pkg/types.js').MeshUnrolling} MeshUnrolling */
-/** @import {Picture} from '../surface/picture-view.js' */
-/** @import {Colours} from './legend.js' */
-/** @import {ViewContent} from '../surface/layer.js' */
 /** @typedef {ReturnType<typeof import('../surface/colour-images.js').sheetStrainImage>} Sheet */
 
 /** Distance of the scale bar from the left and from below, in CSS pixels. */
@@ -56,12 +51,7 @@ export async function sheetOfMesh(unit, { triangles, places, report: { sheets, s
 function sheet(picture, unit, said, facts) {
   const { extent, maxStrain } = picture;
   const size = `${number(extent.width, 4)} × ${number(extent.height, 4)} ${unit}`;
-  return { flat: pictureOf(picture, unit, `The surface laid flat, ${size}`), said: `${said} Colour shows where it had to be stretched or compressed.`, colours: strainColours(maxStrain), about: [figures([['Sheet size', size], ...facts])] };
-}
-
-/** The meaning of the colours of strain. @param {number} maxStrain strain at the end of the colour scale @returns {Colours} */
-function strainColours(maxStrain) {
-  return { title: 'Strain: blue is compressed, red is stretched', scale: linearScale(maxStrain, signedPercent) };
+  return { flat: pictureOf(picture, unit, `The surface laid flat, ${size}`), said: `${said} Colour shows where it had to be stretched or compressed.`, colours: { title: 'Strain: blue is compressed, red is stretched', scale: linearScale(maxStrain, signedPercent) }, about: [figures([['Sheet size', size], ...facts])] };
 }
 
 /**

@@ -14,15 +14,11 @@ use super::threads::Threads;
 use super::tuning::closed_form::{self, Known};
 use super::tuning::line_residuals::level_lines;
 use super::tuning::noise::Noise;
-use super::tuning::refinement::{MAX_RESIDUAL, Next, Refinement};
+use super::tuning::refinement::{MAX_NOISE_DISTANCE, MAX_RESIDUAL, Next, Refinement};
 use super::tuning::residual::root_mean_square;
 use super::tuning::search::{Search, trial_options};
 use super::warm_start::WarmStart;
 use crate::error::Result;
-
-/// Largest distance of a surface to the heights, in standard deviations of their noise, that noise explains. Above it a part
-/// of the shape is lost.
-const MAX_NOISE_DISTANCE: f64 = 1.3;
 
 /// Number of solves by whose residuals rows and columns are levelled, one after the other: each leaves less of the offsets
 /// (`benches/scenes.md`, Offsets of rows).

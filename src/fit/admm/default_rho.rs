@@ -8,37 +8,39 @@ use super::steps::Admm;
 use crate::fit::energy::problem::Problem;
 use crate::fit::linear::z_step_solver::SolvableOperator;
 
-/// Ratio of the scaled primal to the scaled dual residual, or the inverse, above which ρ changes.
+/// Ratio of the scaled primal to the scaled dual residual, or the inverse, above which ρ changes
+/// (`benches/choices.md`, Constants of the schedule that do not pay).
 const RESIDUAL_RATIO: f64 = 3.0;
 
-/// Factor by which ρ is multiplied or divided when it changes.
+/// Factor by which ρ is multiplied or divided when it changes
+/// (`benches/choices.md`, Constants of the schedule that do not pay).
 const RHO_FACTOR: f64 = 2.0;
 
 /// Ratio of the relative primal to the relative dual residual that changes of ρ aim at. The dual residual is measured
 /// after multiplication by `Cᵀ`, which weighs its highest frequencies most, and those cost the dual bound least,
-/// because dual ascent removes them.
+/// because dual ascent removes them (`benches/choices.md`, Constants of the schedule).
 const RESIDUAL_BALANCE_RATIO: f64 = 0.025;
 
 /// Ratio of the relative primal to the relative dual residual that changes of ρ aim at where some vertices have hardly
-/// any fidelity weight: there the dual residual is the change of the Hessians.
+/// any fidelity weight: there the dual residual is the change of the Hessians (`benches/choices.md`, Constants of the
+/// schedule).
 const RESIDUAL_BALANCE_RATIO_WEAK_FIDELITY: f64 = 10.0;
 
-/// Share of the duality gap below which the part that the dual residual causes makes ρ grow, and keeps ρ from falling.
+/// Share of the duality gap below which the part that the dual residual causes makes ρ grow, and keeps ρ from falling
+/// (`benches/choices.md`, Constants of the schedule).
 const DUAL_COST_SHARE_LOW: f64 = 0.2;
 
 /// Share of the duality gap above which the part that the dual residual causes makes ρ fall, on meshes, where ρ is
 /// changed by this share alone.
 const DUAL_COST_SHARE_HIGH: f64 = 0.7;
 
-/// Ratio of ρ at the start of a multigrid level to ρ at the end of the next coarser one.
+/// Ratio of ρ at the start of a multigrid level to ρ at the end of the next coarser one (`benches/choices.md`,
+/// Constants of the schedule).
 const RHO_REFINEMENT_FACTOR: f64 = 0.5;
 
-/// Maximum screening length `(ρ/2λ)^¼` of the z-step (distance over which it smooths), in sizes of the domain: a longer
-/// one is of no use.
-const MAX_SCREENING_LENGTH_SIZES: f64 = 0.1;
-
 /// Maximum screening length `(ρ/2λ)^¼` of the z-step (distance over which it smooths), in lattice spacings: its fourth
-/// power is the condition number. A longer one moves the surface faster and its dual bound more slowly.
+/// power is the condition number. A longer one moves the surface faster and its dual bound more slowly
+/// (`benches/choices.md`, Constants of the schedule).
 const MAX_SCREENING_LENGTH_CELLS: f64 = 10.0;
 
 /// Maximum of ρ, in sizes of the domain, where some vertices have hardly any fidelity weight and the screening length
@@ -68,12 +70,10 @@ pub(crate) fn rho_for_spacing<O: SolvableOperator>(
 /// Limits ρ by the screening length `(ρ/2λ)^¼` of the z-step. Where the optimal surface is nearly affine, the relative
 /// primal residual stays at 1, and residual balancing alone would let ρ grow without end.
 fn bounded_rho<O: SolvableOperator>(rho: f64, problem: &Problem<O>) -> f64 {
-    let size = problem.operator.size();
     if problem.has_weak_fidelity {
-        return rho.min(MAX_RHO_SIZES * size);
+        return rho.min(MAX_RHO_SIZES * problem.operator.size());
     }
-    let length = (MAX_SCREENING_LENGTH_SIZES * size)
-        .min(MAX_SCREENING_LENGTH_CELLS * problem.operator.spacing());
+    let length = MAX_SCREENING_LENGTH_CELLS * problem.operator.spacing();
     rho.min(2.0 * problem.lambda * length.powi(4))
 }
 

@@ -27,30 +27,26 @@ const MAX_CG_ITERATIONS: usize = 1;
 /// Maximum number of conjugate-gradient iterations in a z-step on a lattice while the duality gap is large.
 const MAX_CG_ITERATIONS_LARGE_GAP: usize = 2;
 
-/// Maximum number of conjugate-gradient iterations in the first z-step of a multigrid level.
-const MAX_CG_ITERATIONS_FIRST: usize = 3;
-
 /// Maximum number of conjugate-gradient iterations in a z-step where some vertices have hardly any fidelity weight,
 /// because a V-cycle reduces the error less there.
 const MAX_CG_ITERATIONS_WEAK_FIDELITY: usize = 4;
 
 /// Relative duality gap above which a second conjugate-gradient iteration in each z-step pays. Below, it saves hardly
-/// more iterations of ADMM than it costs.
+/// more iterations of ADMM than it costs (`benches/choices.md`, Constants of the schedule).
 const EXTRA_CG_GAP: f64 = 0.03;
 
-/// Squared residual at which a z-step ends, relative to the one at the start of that z-step.
+/// Squared residual at which a z-step ends, relative to the one at the start of that z-step
+/// (`benches/choices.md`, Constants of the schedule that do not pay).
 const CG_REDUCTION: f64 = 0.005;
 
 /// Over-relaxation factor of `Cz` in ADMM's updates of Hessians and dual.
 const OVER_RELAXATION: f64 = 1.8;
 
-/// Number of iterations without over-relaxation at the start of a multigrid level.
-const UNRELAXED_ITERATIONS: usize = 5;
-
 /// Number of ADMM iterations from one check of the certificate to the next.
 const CHECK_ITERATIONS: usize = 10;
 
-/// Number of ADMM iterations from one check of the certificate to the next at the start of a multigrid level.
+/// Number of ADMM iterations from one check of the certificate to the next at the start of a multigrid level
+/// (`benches/choices.md`, Constants of the schedule that do not pay).
 const FREQUENT_CHECK_ITERATIONS: usize = 5;
 
 /// Number of ADMM iterations at the start of a multigrid level in which checks of the certificate are more frequent.
@@ -58,10 +54,6 @@ const FREQUENT_CHECKS_END: usize = 30;
 
 /// Maximum ratio of the current duality gap to the requested one at which dual ascent is tried.
 const MAX_ASCENT_GAP_RATIO: f64 = 100.0;
-
-/// Maximum ratio of the current duality gap to the requested one at which dual ascent is tried on meshes: ascents from
-/// larger gaps only cost time.
-const MAX_MESH_ASCENT_GAP_RATIO: f64 = 10.0;
 
 /// Minimum requested duality gap at which rank reduction is applied; surfaces solved to a smaller gap have Hessians of
 /// rank one already.
@@ -329,8 +321,6 @@ fn z_step_accuracy<O: SolvableOperator>(admm: &Admm<O>) -> ZStepAccuracy {
     let is_weak = admm.problem.has_weak_fidelity;
     let max_iterations = if is_weak {
         MAX_CG_ITERATIONS_WEAK_FIDELITY
-    } else if admm.iteration == 0 {
-        MAX_CG_ITERATIONS_FIRST
     } else if !admm.parameters.is_mesh && admm.incumbent.gap() > EXTRA_CG_GAP {
         MAX_CG_ITERATIONS_LARGE_GAP
     } else {
@@ -338,11 +328,7 @@ fn z_step_accuracy<O: SolvableOperator>(admm: &Admm<O>) -> ZStepAccuracy {
     };
     ZStepAccuracy {
         max_iterations: max_iterations * admm.divergence.accuracy_factor(),
-        reduction: if admm.iteration == 0 || is_weak {
-            0.0
-        } else {
-            CG_REDUCTION
-        },
+        reduction: if is_weak { 0.0 } else { CG_REDUCTION },
         tolerance: None,
     }
 }
@@ -358,11 +344,10 @@ fn is_check<O: SolvableOperator>(admm: &Admm<O>) -> bool {
 }
 
 /// Returns the over-relaxation factor of the current ADMM iteration. Over-relaxation leaves nearly all of the highest
-/// frequencies of a residual, with the opposite sign; so it is off (1) at the start of a level, where the iterate is
-/// full of them, where the dual bound is evaluated, and after a divergence.
+/// frequencies of a residual, with the opposite sign; so it is off (1) where the dual bound is evaluated, and after a
+/// divergence.
 fn relaxation<O: SolvableOperator>(admm: &Admm<O>) -> f64 {
-    let is_plain =
-        admm.iteration <= UNRELAXED_ITERATIONS || is_check(admm) || admm.divergence.has_restarted();
+    let is_plain = is_check(admm) || admm.divergence.has_restarted();
     if is_plain { 1.0 } else { OVER_RELAXATION }
 }
 
@@ -375,12 +360,8 @@ fn has_rank_one_optimum<O: SolvableOperator>(problem: &Problem<O>) -> bool {
 
 /// Returns whether dual ascent may reach the requested duality gap from the current one.
 fn is_ascent_useful<O: SolvableOperator>(admm: &Admm<O>) -> bool {
-    let ratio = match admm.parameters.is_mesh {
-        true => MAX_MESH_ASCENT_GAP_RATIO,
-        false => MAX_ASCENT_GAP_RATIO,
-    };
     let (gap, requested) = (admm.incumbent.gap(), admm.parameters.gap);
-    has_rank_one_optimum(&admm.problem) && gap > requested && gap < ratio * requested
+    has_rank_one_optimum(&admm.problem) && gap > requested && gap < MAX_ASCENT_GAP_RATIO * requested
 }
 
 /// Returns the reason to stop after a check, if there is one: the requested gap is certified, rounding errors, or the

@@ -28,25 +28,13 @@ use crate::math::sym2::{Sym2, clamp};
 /// to a fourth of an ADMM iteration.
 const STEPS_PER_EVALUATION: usize = 8;
 
-/// Minimum number of evaluations of the dual bound before a dual ascent is given up.
-const MIN_EVALUATIONS: usize = 2;
-
-/// Maximum number of evaluations of the dual bound in one dual ascent.
-const MAX_EVALUATIONS: usize = 8;
-
 /// Maximum ratio of the increase that is still missing from the dual bound to its last increase at which the ascent
 /// continues: each evaluation increases the bound by about half of what the one before did.
 const EXTRAPOLATION_FACTOR: f64 = 1.5;
 
-/// Minimum momentum of a dual ascent step, as a share of the step before: on a scan, ten steps come furthest with it.
-const MIN_MOMENTUM: f32 = 0.7;
-
-/// Maximum momentum of a dual ascent step, as a share of the step before: on a scan, fifty steps come furthest with it.
-const MAX_MOMENTUM: f32 = 0.95;
-
 /// Momentum of the `k`-th step of accelerated gradient ascent (Beck and Teboulle), as a share of the step before.
 fn momentum(k: usize) -> f32 {
-    (k as f32 / (k as f32 + 3.0)).clamp(MIN_MOMENTUM, MAX_MOMENTUM)
+    k as f32 / (k as f32 + 3.0)
 }
 
 /// Cost of [`STEPS_PER_EVALUATION`] dual ascent steps and one evaluation of the bound, in conjugate-gradient
@@ -211,9 +199,7 @@ impl<O: SolvableOperator> DualAscent<O> {
         search.best = search.best.max(next);
         let in_reach = search.goal - next <= EXTRAPOLATION_FACTOR * (next - search.last);
         search.last = next;
-        let over = search.best >= search.goal
-            || search.evaluations >= MIN_EVALUATIONS && !in_reach
-            || search.evaluations >= MAX_EVALUATIONS;
+        let over = search.best >= search.goal || !in_reach;
         over.then_some(search.best)
     }
 

@@ -15,9 +15,6 @@ const MAX_COHERENCE: f64 = 0.8;
 /// (`benches/scenes.md`).
 const MAX_MISFIT: f64 = 0.065;
 
-/// Minimum number of discs of a scale, of those without a common vertex, whose median curvatures are used.
-const MIN_INDEPENDENT_DISCS: f64 = 5.5;
-
 /// Minimum number of scales that a covariance explains which does not explain the smallest discs: it has two parameters, and
 /// two more scales are to confirm it (`benches/verdicts.md`, Smooth noise).
 const MIN_LATE_SCALES: usize = 4;
@@ -41,10 +38,6 @@ const MIN_LENGTH_RADII: f64 = 0.02;
 
 /// Maximum correlation length that is tried, in radii of the largest disc that is used.
 const MAX_LENGTH_RADII: f64 = 1.2;
-
-/// Variance of the positions in a lattice cell along one axis, in squares of the spacing: means over cells blur noise
-/// by as much.
-const CELL_VARIANCE: f64 = 0.08;
 
 /// Noise with a Gaussian covariance: its standard deviation and correlation length.
 #[derive(Debug, Clone, Copy)]
@@ -77,7 +70,8 @@ impl CorrelatedNoise {
                 .for_each(|scale| scale.white_equivalent = scale.white_equivalent_across);
         }
         let is_noise = |scale: &&CurvatureScale| {
-            scale.independent_discs(discs) >= MIN_INDEPENDENT_DISCS
+            // As many discs without a common vertex as a disc has coefficients.
+            scale.independent_discs(discs) >= 6.0
                 && scale.coherence < MAX_COHERENCE
                 && scale.white_equivalent > 0.0
         };
@@ -159,8 +153,9 @@ fn response(scale: &CurvatureScale, discs: &[Disc], length: f64) -> f64 {
     }
     let spacing = f64::from(1u32 << scale.lattice);
     let own = (length / spacing).powi(2);
-    // Means over cells are blurred by the cell, and have less variance by that.
-    let blurred = own + CELL_VARIANCE * (1.0 - 1.0 / (spacing * spacing));
+    // Means over four vertices of a rhombus are blurred by these: their variance along an axis is a quarter of the squared spacing,
+    // and that of all coarsenings `(4ᵏ − 1)/12`. The noise has less variance by that.
+    let blurred = own + (1.0 - 1.0 / (spacing * spacing)) / 12.0;
     let pairs = discs[scale.disc].autocorrelation.iter();
     let sum: f64 = pairs
         .map(|(distance, product)| product * (-distance / (4.0 * blurred)).exp())

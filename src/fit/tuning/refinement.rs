@@ -3,17 +3,13 @@
 use super::noise::Noise;
 use crate::fit::options::LAMBDA_RANGE;
 
-/// Largest mean square of the residual, in squares of the noise, that noise explains: above it a part of the shape is lost
-/// (`benches/scenes.md`, Rules of λ that do not pay).
-const MAX_SQUARED_RESIDUAL: f64 = 2.0;
+/// Largest distance of a surface to the heights, in standard deviations of their noise, that noise explains. Above it a part
+/// of the shape is lost (`benches/scenes.md`, Fewer rules).
+pub(crate) const MAX_NOISE_DISTANCE: f64 = 1.3;
 
 /// Largest residual, in units of the noise, that counts as such: an outlier, or the side of a step, says no more than that its vertex
 /// is lost (`benches/scenes.md`, Residuals).
 pub(crate) const MAX_RESIDUAL: f64 = 2.0;
-
-/// Factor by which λ is raised at once: so much that a solve more is worth its cost, and no more than a warm start is of use for
-/// (`benches/scenes.md`, Rules of λ that do not pay).
-const LAMBDA_RAISE_FACTOR: f64 = 3.0;
 
 /// Maximum number of solves by which λ is refined on the coarse lattice, and at full size (`benches/scenes.md`,
 /// Rules of λ that do not pay).
@@ -101,8 +97,8 @@ impl Refinement {
             return Next::Keep(best);
         }
         self.best = Some((lambda, residual));
-        match residual.powi(2) > MAX_SQUARED_RESIDUAL && self.solves < MAX_SOLVES {
-            true => Next::Solve(LAMBDA_RAISE_FACTOR * lambda),
+        match residual > MAX_NOISE_DISTANCE && self.solves < MAX_SOLVES {
+            true => Next::Solve(nearer(lambda, residual)),
             false => Next::Keep(lambda),
         }
     }
@@ -121,9 +117,7 @@ impl Refinement {
             return Next::Keep(lambda);
         }
         if self.solves + 1 >= MAX_SOLVES {
-            let (kept, _) = self
-                .within
-                .unwrap_or((2.0 * lambda * distance.powi(2), 1.0));
+            let (kept, _) = self.within.unwrap_or((2.0 * nearer(lambda, distance), 1.0));
             // At full size a λ that is kept is that of the solve.
             return match self.spacings > 1.0 {
                 true => Next::Keep(kept),
@@ -137,8 +131,13 @@ impl Refinement {
                 let share = (far / wanted).ln() / (far / near).ln();
                 small * (large / small).powf(share.clamp(0.1, 0.9))
             }
-            // The distance falls about with the square root of λ.
-            _ => lambda * (distance / wanted).powi(2).clamp(1e-3, 1e3),
+            _ => nearer(lambda, distance / wanted),
         })
     }
+}
+
+/// Returns the λ at which the distance to the heights, now `distance` times the one aimed at, is about that: it falls with the
+/// square root of λ.
+fn nearer(lambda: f64, distance: f64) -> f64 {
+    lambda * distance.powi(2).clamp(1e-3, 1e3)
 }

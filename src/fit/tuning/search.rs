@@ -20,13 +20,9 @@ use crate::fit::options::{Energy, HuberOptions, Options};
 use crate::fit::report::{LambdaChoice, LambdaReason};
 use crate::fit::warm_start::WarmStart;
 
-/// Penalties that are compared to [`HuberOptions::ANY`], in this order: flat facets with creases, smooth bends, smooth
-/// bends with creases (`benches/choices.md`).
-const OTHER_PENALTIES: [HuberOptions; 3] = [
-    HuberOptions::new(0.1, 1.0, 0.2),
-    HuberOptions::SMOOTH,
-    HuberOptions::new(0.3, 0.3, 0.3),
-];
+/// Penalties that are compared to [`HuberOptions::ANY`], in this order: flat facets with creases, and smooth bends
+/// (`benches/scenes.md`, Fewer rules).
+const OTHER_PENALTIES: [HuberOptions; 2] = [HuberOptions::new(0.1, 1.0, 0.2), HuberOptions::SMOOTH];
 
 /// Minimum number of standard errors by which a candidate must predict held-out heights better to replace the best one.
 const MIN_ADVANTAGE: f64 = 1.0;

@@ -39,13 +39,17 @@ pub fn decode_photo(bytes: &[u8]) -> Result<PhotoFile> {
     }
 }
 
+/// Reader of a photo from the bytes of a file.
+#[cfg(feature = "images")]
+type Decode = fn(&[u8]) -> Result<PhotoFile>;
+
 /// Decodes a photo in a file of any format but PNG, whose decoder is not linked.
 ///
 /// # Errors
 /// As [`decode_photo`].
 #[cfg(feature = "images")]
 pub fn decode_other_photo(bytes: &[u8]) -> Result<PhotoFile> {
-    let (format, decode): (_, fn(&[u8]) -> Result<PhotoFile>) = match Format::detect(bytes) {
+    let (format, decode): (_, Decode) = match Format::detect(bytes) {
         Some(format @ Format::Jpeg) => (format, jpeg::decode_photo),
         Some(format @ Format::WebP) => (format, super::extended::webp::decode_photo),
         Some(format @ Format::Gif) => (format, gif::decode),

@@ -9,11 +9,11 @@ use crate::fit::energy::problem::Problem;
 use crate::fit::linear::z_step_solver::SolvableOperator;
 
 /// Ratio of the scaled primal to the scaled dual residual, or the inverse, above which ρ changes
-/// (`benches/choices.md`, Constants of the schedule that do not pay).
+/// (`benches/choices.md`, Schedule by ablation).
 const RESIDUAL_RATIO: f64 = 3.0;
 
 /// Factor by which ρ is multiplied or divided when it changes
-/// (`benches/choices.md`, Constants of the schedule that do not pay).
+/// (`benches/choices.md`, Schedule by ablation).
 const RHO_FACTOR: f64 = 2.0;
 
 /// Ratio of the relative primal to the relative dual residual that changes of ρ aim at. The dual residual is measured

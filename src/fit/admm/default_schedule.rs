@@ -36,7 +36,7 @@ const MAX_CG_ITERATIONS_WEAK_FIDELITY: usize = 4;
 const EXTRA_CG_GAP: f64 = 0.03;
 
 /// Squared residual at which a z-step ends, relative to the one at the start of that z-step
-/// (`benches/choices.md`, Constants of the schedule that do not pay).
+/// (`benches/choices.md`, Schedule by ablation).
 const CG_REDUCTION: f64 = 0.005;
 
 /// Over-relaxation factor of `Cz` in ADMM's updates of Hessians and dual.
@@ -46,7 +46,7 @@ const OVER_RELAXATION: f64 = 1.8;
 const CHECK_ITERATIONS: usize = 10;
 
 /// Number of ADMM iterations from one check of the certificate to the next at the start of a multigrid level
-/// (`benches/choices.md`, Constants of the schedule that do not pay).
+/// (`benches/choices.md`, Schedule by ablation).
 const FREQUENT_CHECK_ITERATIONS: usize = 5;
 
 /// Number of ADMM iterations at the start of a multigrid level in which checks of the certificate are more frequent.

@@ -19,11 +19,11 @@ pub(crate) struct AdmmParameters {
 }
 
 /// Minimum number of interior vertices of a coarse multigrid level: a smaller lattice saves nothing
-/// (`benches/choices.md`, Constants of the schedule that do not pay).
+/// (`benches/choices.md`, Schedule by ablation).
 const MIN_COARSE_VERTICES: usize = 500;
 
 /// Relative duality gap at which ADMM stops on coarse levels, unless a larger one is asked for: their lattice differs
-/// from the fine one by more than that (`benches/choices.md`, Constants of the schedule that do not pay).
+/// from the fine one by more than that (`benches/choices.md`, Schedule by ablation).
 const MIN_COARSE_GAP: f64 = 0.01;
 
 /// Maximum number of ADMM iterations on a coarse level (`benches/choices.md`): more would save the finer level less

@@ -61,7 +61,7 @@ pub(super) fn decode_pgm(bytes: &[u8]) -> Result<StoredImage> {
     Ok(StoredImage::new(size, values, number_type))
 }
 
-/// What is left of a file whose header is being read.
+/// Bytes of a file after the part of its header that was read.
 struct Header<'a>(&'a [u8]);
 
 impl Header<'_> {

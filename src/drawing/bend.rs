@@ -17,9 +17,6 @@ use crate::unroll::flat_triangle::Point;
 /// allowance.
 const MAX_FOLD_BOW_SPACINGS: f64 = 0.5;
 
-/// Maximum distance of a fold's ends from the sheet's outline, in lattice spacings, for a bend allowance.
-const MAX_FOLD_END_GAP_SPACINGS: f64 = 1.0;
-
 /// Largest distance between a corner of the outline and the end of a fold there, as a share of the length of the fold that is bent.
 const END_ROUNDING: f64 = 1e-6;
 
@@ -147,9 +144,7 @@ impl Bend {
         let (Some(from), Some(to)) = (nearest(ends[0]), nearest(ends[1])) else {
             return Err("is on no outline");
         };
-        let far = |(_, _, p): (usize, usize, Point), end: Point| {
-            (p - end).norm() > MAX_FOLD_END_GAP_SPACINGS * sheet.spacing
-        };
+        let far = |(_, _, p): (usize, usize, Point), end: Point| (p - end).norm() > sheet.spacing;
         if from.0 != to.0 || far(from, ends[0]) || far(to, ends[1]) {
             return Err(
                 "does not part its sheet in two, and a bend allowance needs folds from edge to edge",

@@ -7,12 +7,10 @@ use crate::unroll::flat_triangle::Point;
 /// measured: along a staircase of the lattice the directions agree over such a length.
 const SIDE_ARM_SPACINGS: f64 = 12.0;
 
-/// Minimum length of a side of the surface's border, in lattice spacings, that is tested for being straight as a whole.
-const MIN_SIDE_LENGTH_SPACINGS: f64 = 8.0;
-
-/// Maximum distance of a straight side's samples from the line fitted to them, as a multiple of the tolerance: a side
-/// that crosses the lattice's rows is a staircase with steps of one edge of the lattice.
-const SIDE_OFFSET_TOLERANCES: f64 = 1.5;
+/// Maximum distance, as a multiple of the tolerance, of what straight lines replace: of a side's samples from the line fitted
+/// to them, since a side that crosses the lattice's rows is a staircase with steps of one edge of the lattice, and of a
+/// corner from the intersection of two lines.
+pub(super) const MAX_STRAIGHTENING_TOLERANCES: f64 = 1.5;
 
 /// Maximum length of a step of a side that crosses the lattice's rows, in lattice spacings: where the surface is steep,
 /// edges of the lattice are longer than the spacing.
@@ -69,7 +67,8 @@ pub(super) fn side_ends(
 pub(super) fn is_straight_side(line: &[Sample], tolerance: f64, spacing: f64) -> bool {
     let length = line[line.len() - 1].along - line[0].along;
     let chord = (line[line.len() - 1].place - line[0].place).norm();
-    if length < MIN_SIDE_LENGTH_SPACINGS * spacing || chord < MIN_CHORD_SHARE * length {
+    // A side has something between its ends.
+    if length < 2.0 * SIDE_END_SPACINGS * spacing || chord < MIN_CHORD_SHARE * length {
         return false;
     }
     let [from, to] = axis(line);
@@ -80,7 +79,7 @@ pub(super) fn is_straight_side(line: &[Sample], tolerance: f64, spacing: f64) ->
     let step = (given.windows(2).map(|p| p[1] - p[0]))
         .filter(|step| *step <= MAX_STEP_SPACINGS * spacing)
         .fold(spacing, f64::max);
-    let limit = SIDE_OFFSET_TOLERANCES * tolerance * step / spacing;
+    let limit = MAX_STRAIGHTENING_TOLERANCES * tolerance * step / spacing;
     let is_near = |(d, s): (&f64, &Sample)| {
         let from_end = (s.along - line[0].along).min(line[line.len() - 1].along - s.along);
         let is_end = from_end < SIDE_END_SPACINGS * spacing;

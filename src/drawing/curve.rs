@@ -167,12 +167,12 @@ impl Curve {
 /// Maximum distance of a curve from a circle that it counts as, and from the line that is offset in its place, in millimetres.
 pub(super) const CIRCLE_TOLERANCE_MM: f64 = 0.002;
 
-/// Minimum turning angle, in radians, at a point of a polyline that counts as a corner; a polyline that turns by less
-/// approximates a curve there.
-pub(super) const POLYLINE_CORNER_ANGLE: f64 = 0.3;
+/// Minimum turning angle, in radians, of a corner: a polyline that turns by less at a point approximates a curve there, and
+/// a tab's fold line turns by less in all. `benches/patterns.md` has what others give.
+pub(super) const MIN_CORNER_TURN: f64 = 0.3;
 
-/// Number of straight segments by which the length of one piece of a curve is measured.
-const LENGTH_SEGMENTS_PER_PIECE: usize = 32;
+/// Number of straight segments by which the length of one piece of a curve is measured, and the nearest point of it found.
+pub(super) const SEGMENTS_PER_PIECE: usize = 32;
 
 impl Piece {
     fn of(controls: [[f64; 2]; 4]) -> Self {
@@ -218,18 +218,18 @@ impl Piece {
         }
     }
 
-    /// Computes the lengths of the piece from its beginning to the end of each of [`LENGTH_SEGMENTS_PER_PIECE`] equal
+    /// Computes the lengths of the piece from its beginning to the end of each of [`SEGMENTS_PER_PIECE`] equal
     /// steps of the curve parameter.
     fn lengths(&self) -> Vec<f64> {
         let mut sum = 0.0;
         let mut last = self.at(0.0);
         let step = |i: usize| {
-            let place = self.at(i as f64 / LENGTH_SEGMENTS_PER_PIECE as f64);
+            let place = self.at(i as f64 / SEGMENTS_PER_PIECE as f64);
             sum += distance(last, place);
             last = place;
             sum
         };
-        (1..=LENGTH_SEGMENTS_PER_PIECE).map(step).collect()
+        (1..=SEGMENTS_PER_PIECE).map(step).collect()
     }
 
     /// Finds the curve parameter, from 0 to 1, at a given length from the piece's beginning.
@@ -243,7 +243,7 @@ impl Piece {
         } else {
             0.0
         };
-        ((i as f64 + share) / LENGTH_SEGMENTS_PER_PIECE as f64).clamp(0.0, 1.0)
+        ((i as f64 + share) / SEGMENTS_PER_PIECE as f64).clamp(0.0, 1.0)
     }
 
     /// Splits the piece in two at a curve parameter from 0 to 1 (de Casteljau).

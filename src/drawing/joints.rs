@@ -9,7 +9,7 @@ use crate::math::planar::{distance, nearest_on_segment};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::curve::{Curve, Piece};
+use super::curve::{Curve, Piece, SEGMENTS_PER_PIECE};
 use super::lines::Lines;
 use super::options::DrawingOptions;
 use super::smooth::crossing_curves;
@@ -30,16 +30,6 @@ const MAX_KACZMARZ_SWEEPS: usize = 400;
 /// Maximum number of times that the lengths of the joints' sides are linearised again (Gauss-Newton steps).
 /// `benches/patterns.md` has what others give.
 const MAX_LENGTH_ROUNDS: usize = 4;
-
-/// Maximum number of trials in which sides of joints that would cross other sides are moved less far.
-const MAX_BACKTRACKING_TRIALS: usize = 16;
-
-/// Factor by which the limit of a side's shift is reduced after a trial in which the side crosses another.
-/// `benches/patterns.md` has what others give.
-const BACKTRACKING_FACTOR: f64 = 0.6;
-
-/// Number of parts of each curve piece of an outline among which the point nearest to a fold's end is searched.
-const NEAREST_POINT_PARTS: usize = 16;
 
 /// A side of a joint (of a seam or a fold between two parts): a piece of an outline, which is a curve between two
 /// corners.
@@ -133,12 +123,14 @@ fn equalise_joints(sheets: &[Sheet], lines: &mut [Lines<'_>], options: &DrawingO
     }
     let before: Vec<Curve> = outlines.sides.iter().map(|s| s.curve.clone()).collect();
     let usual = outlines.crossing(&before);
-    for _ in 0..MAX_BACKTRACKING_TRIALS {
+    let mut share = 1.0;
+    while share > LENGTH_TOLERANCE {
         let after = outlines.equalise_joints();
         let mut wrong = outlines.crossing(&after);
         wrong.retain(|number| !usual.contains(number));
         if !wrong.is_empty() {
-            outlines.reduce_limits(&wrong);
+            outlines.halve_limits(&wrong);
+            share *= 0.5;
             continue;
         }
         for (own, sheet) in lines.iter_mut().zip(&outlines.sheets) {
@@ -229,15 +221,14 @@ impl Outlines {
         wrong.collect()
     }
 
-    /// Reduces the maximum shift of some sides, and of the corners at their ends, by the factor
-    /// [`BACKTRACKING_FACTOR`].
-    fn reduce_limits(&mut self, lines: &[usize]) {
+    /// Halves the maximum shift of some sides, and of the corners at their ends.
+    fn halve_limits(&mut self, lines: &[usize]) {
         for number in lines {
             for corner in self.sides[*number].corners {
-                self.limits[2 * corner] *= BACKTRACKING_FACTOR;
-                self.limits[2 * corner + 1] *= BACKTRACKING_FACTOR;
+                self.limits[2 * corner] *= 0.5;
+                self.limits[2 * corner + 1] *= 0.5;
             }
-            self.limits[2 * self.corners + number] *= BACKTRACKING_FACTOR;
+            self.limits[2 * self.corners + number] *= 0.5;
         }
     }
 
@@ -327,8 +318,8 @@ fn fold_end_shift(end: [f64; 2], before: &[Curve], after: &[Curve], cell: f64) -
         |curves: &[Curve]| -> Vec<Piece> { curves.iter().flat_map(Curve::pieces).collect() };
     let (mut nearest, mut found) = (0.5 * cell, [0.0; 2]);
     for (old, new) in pieces(before).into_iter().zip(pieces(after)) {
-        for k in 0..NEAREST_POINT_PARTS {
-            let at = |i: f64| (k as f64 + i) / NEAREST_POINT_PARTS as f64;
+        for k in 0..SEGMENTS_PER_PIECE {
+            let at = |i: f64| (k as f64 + i) / SEGMENTS_PER_PIECE as f64;
             let ends = [old.at(at(0.0)), old.at(at(1.0))];
             let place = nearest_on_segment(end, ends);
             if distance(place, end) <= nearest {

@@ -1,6 +1,6 @@
 //! Offsets the outlines of sheets outwards, by half the kerf and the allowance.
 
-use super::curve::{CIRCLE_TOLERANCE_MM, Curve, POLYLINE_CORNER_ANGLE};
+use super::curve::{CIRCLE_TOLERANCE_MM, Curve, MIN_CORNER_TURN};
 use super::line::FLATTENING_TOLERANCE_MM;
 use super::smooth::smooth;
 use crate::math::planar::polygon_area;
@@ -77,7 +77,7 @@ fn beside(ring: &[Point], distance: f64) -> Vec<Point> {
         // Intersection of both offset sides, relative to the corner.
         let half = (0.5 * turn).cos();
         let tip = (u + v) / (u + v).norm() * Point::new(0.0, -distance / half);
-        if turn.abs() < POLYLINE_CORNER_ANGLE || (turn > 0.0 && 1.0 <= MAX_MITRE_FACTOR * half) {
+        if turn.abs() < MIN_CORNER_TURN || (turn > 0.0 && 1.0 <= MAX_MITRE_FACTOR * half) {
             out.push(here + tip);
         } else {
             out.extend([p, q]);

@@ -1,6 +1,6 @@
 //! Makes the outlines and folds found on the lattice smooth: straight pieces and curves between corners.
 
-use super::border_side::{axis, is_straight_side, side_ends};
+use super::border_side::{MAX_STRAIGHTENING_TOLERANCES, axis, is_straight_side, side_ends};
 use super::curve::Curve;
 use super::line_corners::{MIN_SMOOTHED_LENGTH_SPACINGS, Sample, corners, rotated, samples};
 use super::spline::fit_spline;
@@ -18,10 +18,6 @@ const MIN_SPAN_SPACINGS: f64 = 1.5;
 /// Root mean square distance of a fitted curve from the sample points, in lattice spacings, below which the fit counts
 /// as exact. `benches/patterns.md` has what others give.
 const NEGLIGIBLE_RESIDUAL_SPACINGS: f64 = 0.03;
-
-/// Maximum distance of the intersection of two straight lines from the corner that it replaces, as a multiple of the
-/// tolerance.
-const MAX_CORNER_TOLERANCES: f64 = 1.5;
 
 /// Maximum distance of the intersection of two sides of the surface's border from the corner that it replaces, as a multiple
 /// of the tolerance: the lattice may have cut off a cell there.
@@ -228,7 +224,7 @@ fn smooth_line(points: &[[f64; 2]], tolerance: f64, spacing: f64, is_border: boo
             let is_side = |k: usize| sides.contains(&[corners[k], corners[k + 1]]);
             let reach = match is_side(k) || is_side(next) {
                 true => MAX_SIDE_CORNER_TOLERANCES,
-                false => MAX_CORNER_TOLERANCES,
+                false => MAX_STRAIGHTENING_TOLERANCES,
             };
             let near = |p: &Point| (p - corner).norm() <= reach * tolerance;
             if let Some(place) = line_intersection(a, b, 0.0).filter(near) {

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::curve::{Curve, POLYLINE_CORNER_ANGLE};
+use super::curve::{Curve, MIN_CORNER_TURN};
 use super::line::FLATTENING_TOLERANCE_MM;
 use crate::math::planar::{distance, polyline_length, segments_intersect};
 use crate::pattern::{Run, Seam};
@@ -20,9 +20,6 @@ pub(super) struct Tab {
     pub depth: f64,
     pub middle: [f64; 2],
 }
-
-/// Maximum angle, in radians, by which a tab's fold line turns in all. `benches/patterns.md` has what others give.
-const MAX_TAB_BEND: f64 = 0.3;
 
 /// Minimum length of a tab's fold line, in millimetres. `benches/patterns.md` has what others give.
 const MIN_TAB_LENGTH_MM: f64 = 2.0;
@@ -184,7 +181,7 @@ fn walls_near(runs: &[Vec<[f64; 2]>], depth: f64, walls: &[[[f64; 2]; 2]]) -> Ve
     walls.iter().filter(is_near).copied().collect()
 }
 
-/// Divides a curve into fold lines of tabs: each line turns by at most [`MAX_TAB_BEND`] and, where possible, is at
+/// Divides a curve into fold lines of tabs: each line turns by at most [`MIN_CORNER_TURN`] and, where possible, is at
 /// least [`MIN_TAB_LENGTH_MM`] long.
 fn bases(curve: &Curve) -> Vec<Curve> {
     let points = curve.points(FLATTENING_TOLERANCE_MM);
@@ -202,7 +199,7 @@ fn bases(curve: &Curve) -> Vec<Curve> {
         turned += turn;
         let room =
             gone - ends[ends.len() - 1] >= MIN_TAB_LENGTH_MM && whole - gone >= MIN_TAB_LENGTH_MM;
-        if turn.abs() > POLYLINE_CORNER_ANGLE || (turned.abs() > MAX_TAB_BEND && room) {
+        if turn.abs() > MIN_CORNER_TURN || (turned.abs() > MIN_CORNER_TURN && room) {
             ends.push(gone);
             turned = 0.0;
         }

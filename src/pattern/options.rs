@@ -2,13 +2,10 @@
 
 use crate::unroll::UnrollOptions;
 use crate::unroll::arap_mesh::StoppingCriteria;
+use crate::unroll::distortion::NOTICEABLE_STRAIN;
 
 /// Default maximum seam gap, as a share of the fold's length: half a millimetre on 10 cm. No table chose it.
 const DEFAULT_MAX_SEAM_GAP_SHARE: f64 = 0.005;
-
-/// Default maximum root mean square strain of a sheet: lengths on the sheet are wrong by 1 %, 2 mm on a page of A4, as
-/// in a layout that counts as unrolled. No table chose it; the patterns in `benches/choices.md` keep to it.
-const DEFAULT_MAX_STRAIN: f64 = 0.01;
 
 /// Ratio of the energy to the energy at the strain limit above which the solver that lays parts flat gives up where it
 /// progresses slowly. `benches/patterns.md` has what others give.
@@ -44,7 +41,7 @@ impl Default for PatternOptions {
     fn default() -> Self {
         PatternOptions {
             max_seam_gap: DEFAULT_MAX_SEAM_GAP_SHARE,
-            max_strain: DEFAULT_MAX_STRAIN,
+            max_strain: NOTICEABLE_STRAIN,
             unrolling: UnrollOptions::default(),
             refold: false,
         }

@@ -2,9 +2,9 @@
 
 use super::flat_triangle::{FlatTriangle, Point};
 
-/// Strain above which [`Distortion::above`] counts a triangle: 1 %, which is 3 mm on the longer side of an A4 page. No
-/// table chose it.
-const NOTICEABLE_STRAIN: f64 = 0.01;
+/// Strain above which [`Distortion::above`] counts a triangle, and default maximum of a sheet's root mean square strain: 1 %,
+/// which is 3 mm on the longer side of an A4 page. No table chose it; the patterns in `benches/choices.md` keep to it.
+pub(crate) const NOTICEABLE_STRAIN: f64 = 0.01;
 
 /// Strain of a flat layout: relative changes of length from the surface to the plane. `σ₁ ≥ σ₂` are the
 /// singular values of each triangle's map to the plane.

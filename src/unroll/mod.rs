@@ -31,7 +31,7 @@ pub(crate) mod arap_mesh;
 mod cholesky;
 mod components;
 mod dense_front;
-mod distortion;
+pub(crate) mod distortion;
 pub(crate) mod flat_triangle;
 mod layout;
 mod local_global;

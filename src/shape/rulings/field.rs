@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::direction::{SMOOTHING_PASSES, direction_confidence, minor_axis};
+use super::options::DEFAULT_CREASE_BEND;
 use crate::error::{Result, check_count, try_filled};
 use crate::fit::mesh::geometry::{Frame, normals};
 use crate::fit::mesh::linearisation::fit_quadratic;
@@ -11,10 +12,6 @@ use crate::math::sym2::Sym2;
 use crate::scene::half_edges::twin_half_edges;
 use crate::scene::mesh::Mesh;
 use crate::scene::triangulation::Triangulation;
-
-/// Bend angle, in radians from one vertex to the next, above which a vertex is not averaged with neighbours that bend
-/// less: it lies on a crease.
-const MAX_SMOOTHED_BEND: f64 = 0.2;
 
 /// The direction of the ruling at every vertex of a mesh of any shape.
 #[derive(Debug, Clone)]
@@ -77,7 +74,8 @@ impl Rulings {
                     continue;
                 }
                 let (mut sum, mut weight) = (last[vertex] * 2.0, 2.0);
-                let most = bends[vertex].max(MAX_SMOOTHED_BEND);
+                // What lies on a crease is averaged with no neighbour that bends less.
+                let most = bends[vertex].max(DEFAULT_CREASE_BEND);
                 for other in topology.around(vertex).iter().map(|v| *v as usize) {
                     if bends[other] <= most {
                         sum += last[other];

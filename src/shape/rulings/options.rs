@@ -12,7 +12,7 @@ const DEFAULT_MIN_CONFIDENCE: f64 = 0.3;
 
 /// Default bend angle of a crease where rulings end, in radians from one vertex to the next (eleven degrees). No table
 /// chose it.
-const DEFAULT_CREASE_BEND: f64 = 0.2;
+pub(super) const DEFAULT_CREASE_BEND: f64 = 0.2;
 
 /// Options of tracing rulings: distance between rulings, and where rulings end.
 #[derive(Debug, Clone, Copy, PartialEq)]

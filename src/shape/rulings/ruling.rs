@@ -14,9 +14,6 @@ pub struct Ruling {
     pub deviation: f64,
 }
 
-/// Minimum length of a traced ruling, as a multiple of the distance between rulings. Shorter rulings are discarded.
-pub(super) const MIN_LENGTH_SEPARATIONS: f64 = 1.0;
-
 impl Ruling {
     /// Creates a ruling from the points along it; `None` if its ends coincide.
     pub(super) fn new(points: Vec<[f64; 3]>) -> Option<Self> {

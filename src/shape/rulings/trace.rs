@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::field::{Rulings, minor_axis_in_space, restrict_to_plane};
 use super::options::TraceOptions;
 use super::point_hash::PointHash;
-use super::ruling::{MIN_LENGTH_SEPARATIONS, Ruling};
+use super::ruling::Ruling;
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
 
@@ -32,7 +32,7 @@ struct Step {
 impl Rulings {
     /// Traces evenly spaced rulings, the most certain ones first, no closer together than half the separation; each
     /// ends at the border of the mesh, at a crease or where it would come too close to another one (after Jobard and Lefer
-    /// 1997). Beside a crease between plane faces lines may run along it. Costs
+    /// 1997). Those shorter than the separation are left out. Beside a crease between plane faces lines may run along it. Costs
     /// `O(n log n)` for `n` triangles.
     ///
     /// # Errors
@@ -75,7 +75,7 @@ impl Rulings {
             }
             let points = course.into_iter().map(|(place, _)| place.into());
             if let Some(line) = Ruling::new(points.collect())
-                && line.length >= MIN_LENGTH_SEPARATIONS * separation
+                && line.length >= separation
             {
                 lines.push(line);
             }

@@ -7,9 +7,7 @@ use super::body::Body;
 use super::join::Joined;
 use super::seams::{Seam, Seams};
 use crate::pattern::Meeting;
-use crate::pattern::meeting::{
-    ANGLE_RADIUS_SHARE, MAX_ANGLE_RADIUS_LENGTHS, MIN_ANGLE_RADIUS_LENGTHS,
-};
+use crate::pattern::meeting::{MIN_ANGLE_RADIUS_LENGTHS, angle_reach};
 
 /// The points of a mesh where cuts or folds end or meet, with the number of the vertex there as the key.
 pub(super) struct Meetings {
@@ -72,7 +70,6 @@ impl Meetings {
             .collect();
         let around = AngleDefects::new(body);
         let meeting = |(vertex, found): (u32, PointSeams)| {
-            // What the mesh bends beside another cut is taken up by that cut.
             let others = cut_vertices
                 .iter()
                 .filter(|(_, ends)| !ends.contains(&vertex));
@@ -80,8 +77,7 @@ impl Meetings {
             let other = others
                 .map(|(other, _)| (body.places[*other as usize] - place).norm())
                 .fold(f64::INFINITY, f64::min);
-            let reach = (MAX_ANGLE_RADIUS_LENGTHS * body.spacing)
-                .min(ANGLE_RADIUS_SHARE * found.shortest.min(other));
+            let reach = angle_reach(body.spacing, found.shortest, other);
             let short = found.most > 1 && reach < MIN_ANGLE_RADIUS_LENGTHS * body.spacing;
             // A cut that passes through the vertex without an end divides the surface around it, so no angle is
             // measured.

@@ -15,10 +15,6 @@ const MAX_DEPTH_DIFFERENCE: f64 = 0.15;
 /// Maximum cosine of the angle between the normals of a skin and of what lies below it.
 const MAX_OPPOSITE_COSINE: f64 = -0.9;
 
-/// Minimum share of a solid's area that its two skins have, and of the smaller skin in both.
-const MIN_SKIN_SHARE: f64 = 0.7;
-const MIN_SMALLER_SKIN_SHARE: f64 = 0.4;
-
 /// Maximum thickness of a sheet, as a share of the side of a square with the area of a skin.
 const MAX_THICKNESS_SHARE: f64 = 0.1;
 
@@ -83,9 +79,9 @@ pub fn sheet_metal(mesh: &Mesh) -> Result<Option<SheetMetal>> {
     let mut order: Vec<u32> = (0..skins.len() as u32).collect();
     order.sort_by(|a, b| skins[*b as usize].total_cmp(&skins[*a as usize]));
     let [large, small] = [0, 1].map(|k| order.get(k).map_or(0.0, |root| skins[*root as usize]));
-    let is_sheet = large + small >= MIN_SKIN_SHARE * whole
-        && small >= MIN_SMALLER_SKIN_SHARE * (large + small)
-        && thickness <= MAX_THICKNESS_SHARE * large.sqrt();
+    // The rim has less area than either skin.
+    let is_sheet =
+        small >= whole - large - small && thickness <= MAX_THICKNESS_SHARE * large.sqrt();
     if !is_sheet {
         return Ok(None);
     }

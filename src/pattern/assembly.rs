@@ -13,7 +13,7 @@ use super::parts::Parts;
 use super::refold::refold_sheet;
 use super::seam_graph::SeamGraph;
 use super::sew::close_cuts;
-use super::shape::{MIN_OUTLINE_AREA, folds, outlines};
+use super::shape::{folds, outlines};
 use super::sheets::{Direction, Missing, Pattern, Run, Seam, Sheet};
 use super::spots::label_spot;
 use crate::error::Result;
@@ -86,7 +86,6 @@ pub(super) fn assemble_sheets(
             Settled::Opened(found) => wrong = found,
             Settled::Removable(part, removed) => {
                 parts.flat_patches = net.flat_patches;
-                parts.trims += 1;
                 parts.leave_out_vertices(part, removed)?;
                 return Ok(Assembly::Cut(Box::new(parts), Vec::new()));
             }
@@ -300,7 +299,7 @@ pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pa
     });
     let mut sheets = sheets.collect::<Result<Vec<Sheet>>>()?;
     // A sheet of a few vertices whose outline was cut off with a loop is no sheet.
-    let least = MIN_OUTLINE_AREA * net.spacing * net.spacing;
+    let least = net.spacing.powi(2);
     let is_empty = |sheet: &Sheet| sheet.outlines.iter().all(|line| outline_area(line) < least);
     let mut missing = missing(surface, whole)?;
     remove_crumbs(&mut sheets, patches.patches(), &mut missing, is_empty);

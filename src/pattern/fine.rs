@@ -129,7 +129,6 @@ pub(super) fn refine_sheets(
             }
             Settled::Removable(part, removed) => {
                 parts.flat_patches = std::mem::take(&mut net.flat_patches);
-                parts.trims += 1;
                 parts.leave_out_vertices(part, removed)?;
             }
         }

@@ -23,8 +23,7 @@ const ANGLE_RADIUS_SHARE: f64 = 0.8;
 /// a mesh; nearer to the point the sampling smooths the surface.
 pub(super) const MIN_ANGLE_RADIUS_LENGTHS: f64 = 6.0;
 
-/// Number of evenly spaced directions in which the ring around a point is sampled to measure the angle there: beside a crease
-/// of 60° the angle is off by less than a tenth of a degree.
+/// Number of evenly spaced directions in which the ring around a point is sampled to measure the angle there.
 const RING_DIRECTIONS: usize = 720;
 
 /// Number of straight segments by which the length of the path from a point to its ring is measured.

@@ -20,10 +20,6 @@ const MAX_PARTS: usize = 1500;
 /// Maximum share of the surface's vertices that may be left out of the pattern: with more it is no pattern of the surface.
 pub(super) const MAX_OMITTED_SHARE: f64 = 0.1;
 
-/// Maximum number of times that a few border vertices are removed from sheets; each removal lays these sheets flat again. It
-/// bounds the work: 8, and no maximum, give the same patterns (`benches/patterns.md`).
-const MAX_TRIM_ROUNDS: usize = 64;
-
 /// Maximum number of border vertices that are removed from a part that is invalid on the fine lattice alone, as a share
 /// of its vertices. Most such parts are small and ragged: cut further, they would become sheets of a few vertices.
 /// `benches/patterns.md` has what others give.
@@ -51,8 +47,6 @@ pub(super) struct Parts {
     /// Number of vertices of the surface that were left out of the pattern so far; `most_left_out` is its maximum.
     left_out: usize,
     most_left_out: usize,
-    /// Number of times that border vertices were removed from sheets so far, at most [`MAX_TRIM_ROUNDS`].
-    pub trims: usize,
 }
 
 fn most_left_out(surface: &Heightfield) -> usize {
@@ -79,7 +73,6 @@ impl Parts {
             pending: Vec::new(),
             left_out: 0,
             most_left_out: most_left_out(surface),
-            trims: 0,
         };
         parts.lay_flat(&(0..count as u32).collect::<Vec<_>>())?;
         Ok(parts)
@@ -97,7 +90,6 @@ impl Parts {
             pending: Vec::new(),
             left_out: 0,
             most_left_out: most_left_out(surface),
-            trims: 0,
         }
     }
 
@@ -388,9 +380,6 @@ impl Parts {
     ) -> Option<Vec<usize>> {
         let lattice = self.surface.lattice();
         let most = |count| self.max_removed(count, MAX_REMOVED_SHARE);
-        if self.trims >= MAX_TRIM_ROUNDS {
-            return None;
-        }
         removable_vertices(lattice, &self.labels, part, flat_patch, part_fault, most)
     }
 

@@ -12,14 +12,6 @@ use crate::unroll::flat_triangle::Point;
 /// Maximum distance between an outline or fold and its simplified polyline, in lattice spacings.
 const SIMPLIFICATION_TOLERANCE_SPACINGS: f64 = 0.02;
 
-/// Maximum length of a border segment that cuts off a corner of the outline, as a multiple of the longest edge there.
-/// Such a segment arises because the border connects the midpoints of edges.
-const MAX_CHAMFER_LENGTH_FACTOR: f64 = 1.1;
-
-/// Minimum area of a closed line around a sheet, in squared spacings of a lattice or edge lengths of a mesh; a cut within a
-/// sheet that opens less is not drawn. `benches/patterns.md` has what others give.
-pub(super) const MIN_OUTLINE_AREA: f64 = 1.0;
-
 /// Removes the closed lines around less than a least area, except the one around the largest; `least` may differ from
 /// line to line.
 pub(super) fn drop_empty_lines<T>(
@@ -48,7 +40,8 @@ pub(super) fn lines(net: &SeamGraph, layout: &Layout, patches: &[u32]) -> (Vec<R
         runs
     });
     let mut lines: Vec<Runs> = lines.collect();
-    let least = MIN_OUTLINE_AREA * net.spacing * net.spacing;
+    // A cut within a sheet that opens by less than a square of the spacing is not drawn.
+    let least = net.spacing.powi(2);
     drop_empty_lines(
         &mut lines,
         |_| least,
@@ -263,11 +256,11 @@ fn places(corners: &[Corner]) -> Vec<Point> {
 }
 
 /// Computes the maximum length, in the surface's units, of a border segment that counts as cutting off a corner of the
-/// outline.
+/// outline: it connects the midpoints of two edges, and is no longer than the longest edge.
 fn short(corners: &[Corner]) -> f64 {
     let next = vertices(corners).skip(1);
     let edges = vertices(corners).zip(next).map(|(p, q)| (q - p).norm());
-    MAX_CHAMFER_LENGTH_FACTOR * edges.fold(0.0, f64::max)
+    edges.fold(0.0, f64::max)
 }
 
 /// Returns the positions of those corners of a border that are lattice vertices; the border goes from one to the

@@ -104,9 +104,6 @@ pub struct Run {
     pub points: Vec<[f64; 2]>,
 }
 
-/// Angle, in degrees, up to which a fold is none: drawings give angles in whole degrees, and would call it 0°.
-const MAX_NO_FOLD_ANGLE_DEGREES: f64 = 0.5;
-
 /// A line along which a sheet is folded.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -123,9 +120,10 @@ pub struct Fold {
 }
 
 impl Fold {
-    /// Whether the fold is one to make: it belongs to a smooth bend, or its angle does not round to 0°.
+    /// Whether the fold is one to make: it belongs to a smooth bend, or its angle does not round to 0°, which is
+    /// what drawings would call it.
     pub(crate) fn is_made(&self) -> bool {
-        self.bend.is_some() || self.seam.angle.to_degrees() > MAX_NO_FOLD_ANGLE_DEGREES
+        self.bend.is_some() || self.seam.angle.to_degrees().round() > 0.0
     }
 }
 

@@ -10,9 +10,8 @@ use crate::math::planar::{LeastBox, Point2, cross};
 use crate::pattern::motion::Motion;
 use crate::scene::polyhedron::Polyhedron;
 
-/// Maximum number of cells of all grids: so many for each triangle, and so many in all. Slender triangles get larger cells.
+/// Maximum number of cells of all grids for each triangle. Slender triangles get larger cells.
 const MAX_CELLS_PER_TRIANGLE: f64 = 64.0;
-const MAX_SHARED_CELLS: f64 = 1e6;
 
 /// Surcharge for a cut between facets that meet flat over one of the same length between facets that fold onto each other, as a
 /// share: of edges that are equally long a sharp one is cut, and no smooth bend.
@@ -127,9 +126,9 @@ impl<'a> Net<'a> {
             motions: vec![Motion::IDENTITY; count],
             piece_of: (0..count as u32).collect(),
             pieces: std::iter::repeat_with(Piece::default).take(count).collect(),
-            cell: (area / solid.triangles.len() as f64).sqrt().max(
-                length / (MAX_CELLS_PER_TRIANGLE * solid.triangles.len() as f64 + MAX_SHARED_CELLS),
-            ),
+            cell: (area / solid.triangles.len() as f64)
+                .sqrt()
+                .max(length / (MAX_CELLS_PER_TRIANGLE * solid.triangles.len() as f64)),
             room,
             choices,
             work: 0,

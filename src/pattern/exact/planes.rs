@@ -26,8 +26,7 @@ const FLAT_SEED_VARIANCE_SHARE: f64 = 0.715;
 const NOISE_LEVELS: [f64; 2] = [1.0, 2.0];
 
 /// Maximum number of rounds in which a region grows, and of those in which vertices choose among regions.
-const MAX_GROWTH_ROUNDS: usize = 12;
-const MAX_ASSIGNMENT_ROUNDS: usize = 8;
+const MAX_ROUNDS: usize = 12;
 
 /// Maximum ratio of the deviations of a region from a plane for two regions and from its own.
 const MAX_MERGED_DEVIATION_RATIO: f64 = 1.2;
@@ -213,7 +212,7 @@ impl Search<'_> {
             let mut members = grow(&self.around, *seed, |near, v| {
                 near.len() < SEED_VERTICES && is_free(v)
             });
-            for _ in 0..MAX_GROWTH_ROUNDS {
+            for _ in 0..MAX_ROUNDS {
                 let before = members.len();
                 let Some((plane, _)) = self.fit(&members) else {
                     break;
@@ -229,7 +228,7 @@ impl Search<'_> {
             planes.push(self.fit(&members)?.0);
             (members.iter()).for_each(|v| labels[*v as usize] = planes.len() as u32 - 1);
         }
-        for _ in 0..MAX_ASSIGNMENT_ROUNDS {
+        for _ in 0..MAX_ROUNDS {
             let is_same = self.assign(&mut labels, &planes, noise);
             self.merge(&mut labels);
             planes = self.refit(&mut labels)?;

@@ -8,7 +8,6 @@ use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::pattern::crumbs::remove_crumbs;
 use crate::pattern::flat_mesh::FlatMesh;
-use crate::pattern::shape::MIN_OUTLINE_AREA;
 use crate::pattern::{Direction, Missing, Seam, Sheet};
 use crate::shape::patches::{Crease, Patch};
 use crate::unroll::flat_triangle::Point;
@@ -40,7 +39,7 @@ pub(super) fn draw_sheets(
     let sheet = |own: &Joined| {
         // A cut that is within the sheet and hardly opens is no outline, but a hole of the mesh is, however small.
         let least = |line: &[u32]| match line.iter().all(|side| seams.of(*side).is_some()) {
-            true => MIN_OUTLINE_AREA * body.spacing * body.spacing,
+            true => body.spacing.powi(2),
             false => 0.0,
         };
         Sheet {

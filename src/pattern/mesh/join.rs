@@ -20,13 +20,9 @@ pub(super) struct Limits {
     pub until: StoppingCriteria,
 }
 
-/// Strain, as a share of the limit, at which laying a part flat stops as long as the part may still be cut or joined.
+/// Strain, as a share of the limit, at which a part that may still be cut or joined is flat enough.
 /// `benches/patterns.md` has what others give.
 const TRIAL_STRAIN_SHARE: f64 = 0.8;
-
-/// Maximum strain of a joined sheet, as a multiple of the strain that its sheets had, at which it is not laid flat again
-/// before the next one is joined to it. `benches/patterns.md` has what others give.
-const MAX_UNRELAXED_GROWTH: f64 = 1.01;
 
 impl Limits {
     /// Returns the stopping criteria of the solver for laying parts flat that may still be cut or joined.
@@ -305,15 +301,7 @@ impl<'a> SheetPair<'a> {
         if rough.overlaps() {
             return Ok(None);
         }
-        let [squares, area] = self.all().fold([0.0; 2], |[squares, area], sheet| {
-            let laid = &sheet.laid;
-            [squares + laid.area * laid.strain.powi(2), area + laid.area]
-        });
-        let before = (squares / area).sqrt();
-        let enough = (TRIAL_STRAIN_SHARE * limits.strain)
-            .max(MAX_UNRELAXED_GROWTH * before)
-            .min(limits.strain);
-        let laid = match rough.strain <= enough {
+        let laid = match rough.strain <= TRIAL_STRAIN_SHARE * limits.strain {
             true => rough,
             false => {
                 let laid = rough.relaxed(body, limits.trial())?;

@@ -30,6 +30,7 @@ export const VIEW_WORDS = {
 /** What a task does, as its progress says. */
 export const TASK_WORDS = {
   reading: 'Reading the file',
+  making: 'Making the example',
   sampling: 'Looking at it from there',
   building: 'Building the 3D surface',
   view: 'Preparing this view',
@@ -92,11 +93,11 @@ export const ENERGIES = {
   huber: 'Gentle bends count by their square, creases by their size: bends stay round and creases sharp. The proof is for the last pass over the creases.',
 };
 
-/** Why a result cannot be copied as a command or as code. */
-export const REPRODUCE_WORDS = {
-  noCommand: 'The command reads heights from a file. It cannot read examples, or meshes as they are seen here.',
-  noCode: 'The code reads heights from a file, or makes an example. It cannot make meshes as they are seen here.',
-};
+/** Why a result cannot be copied as a command, and why not as code. */
+export const REPRODUCE_WORDS = [
+  'There is no command for it: commands read heights from a file, not examples, depths, or meshes as they are seen here.',
+  'There is no code for it: code reads heights from a file, or makes an example, not depths, or meshes as they are seen here.',
+];
 
 /** Verdicts on an unrolled surface. @type {Record<Verdict, string>} */
 export const VERDICTS = {

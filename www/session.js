@@ -62,7 +62,7 @@ import { derivedOf } from './surface/derived-data.js';
  * @property {Result} result
  * @property {null} cleared the last result was discarded because another input was opened
  * @property {Phase} phase
- * @property {Task | null} opening a file is being opened, by this task; null when that has ended
+ * @property {Task | null} opening an input is being opened, by this task; null when that has ended
  * @property {null} unsolved a run has ended without a result
  * @property {{ doing: string, error: unknown }} failure
  */
@@ -165,17 +165,13 @@ export class Session extends Events {
    * Loads another input and makes it the present one. If loading fails, the present input and its run stay.
    * @param {string} doing what could not be done, for the message if loading fails
    * @param {(signal: AbortSignal) => Promise<Input>} load `signal` aborts when another file is opened instead
-   * @param {Task} [task]
+   * @param {Task} task
    * @returns {Promise<boolean>} whether the input was opened
    */
   async open(doing, load, task) {
-    this.cancelOpening();
-    const opening = (this.#opening = new AbortController());
-    const { signal } = opening;
-    if (task) this.emit('opening', task);
-    try {
+    const isOpened = await this.whileOpening(doing, task, async (signal) => {
       const input = await load(signal);
-      if (signal.aborted) return false;
+      if (signal.aborted) return;
       this.#stop();
       this.#disposeSolver();
       this.input = input;
@@ -183,14 +179,39 @@ export class Session extends Events {
       this.#runRequested = false;
       this.emit('input', input);
       this.emit('cleared', null);
-      return !signal.aborted;
+      return true;
+    });
+    this.wait();
+    return isOpened ?? false;
+  }
+
+  /**
+   * Does a part of what opens an input.
+   * @template T
+   * @param {string} doing what could not be done, for the message if it fails
+   * @param {Task} task
+   * @param {(signal: AbortSignal) => Promise<T>} work `signal` aborts when something else is opened instead
+   * @returns {Promise<T | null>} null if it has failed or was cancelled
+   */
+  async whileOpening(doing, task, work) {
+    this.cancelOpening();
+    const opening = (this.#opening = new AbortController());
+    const { signal } = opening;
+    this.emit('opening', task);
+    try {
+      const answer = await work(signal);
+      return signal.aborted ? null : answer;
     } catch (error) {
       if (!signal.aborted) this.fail(doing, error);
-      return false;
+      return null;
     } finally {
       if (this.#opening === opening) this.cancelOpening();
-      if (this.phase === 'starting') this.#setPhase('idle');
     }
+  }
+
+  /** Whether an input is being opened. */
+  get isOpening() {
+    return this.#opening !== null;
   }
 
   /** Cancels the file that is being opened; the present input stays. */

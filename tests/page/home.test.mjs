@@ -1,7 +1,8 @@
 /** The first screen: three doors, and the right one for whatever is dropped or pasted. */
 import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
 import { deflateSync } from 'node:zlib';
-import { chunk, grid, npy } from './support/files.mjs';
+import { chunk, grid, npy, obj } from './support/files.mjs';
 import { choose, drop, pageTest, settled } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 
@@ -120,3 +121,58 @@ pageTest('few stops of the Tab key lead through a scan before more is asked for'
   assert.ok(stops.length > 8 && stops.length <= MAX_TAB_STOPS, `${stops.length}: ${stops.join(' · ')}`);
   assert.equal(await page.locator('.primary:visible').count(), 1, 'one main button');
 }, { unfolded: '', drawn: true });
+
+pageTest('a file that cannot be read leads back to the doors, though something was open before, and not away from what is shown', async (page) => {
+  const home = page.locator('#home');
+  await page.getByRole('link', { name: 'developable' }).click();
+  await home.waitFor();
+  const broken = Buffer.from('v 0 0 0\nv 1 0\nf 1 2 9\n');
+  await drop(page, 'broken.obj', broken);
+  await page.getByRole('alert').filter({ hasText: 'broken.obj' }).waitFor();
+  await home.waitFor();
+  assert.equal(await page.locator('#heights-side').isVisible(), false);
+  await page.goBack();
+  await page.locator('#heights-side').waitFor();
+  assert.match(await page.locator('#input-caption').innerText(), /^cylinder/, 'Back leads to what was open');
+  await drop(page, 'later.obj', broken);
+  await page.getByRole('alert').filter({ hasText: 'later.obj' }).waitFor();
+  assert.ok(await page.locator('#heights-side').isVisible());
+});
+
+pageTest('while something is opened, the page says so and not that it shows nothing', async (page) => {
+  const verdict = page.locator('#verdict');
+  const said = await verdict.evaluateHandle((element) => {
+    /** @type {string[]} */
+    const words = [];
+    const look = () => {
+      if (element.checkVisibility() && words.at(-1) !== element.textContent) words.push(element.textContent ?? '');
+      requestAnimationFrame(look);
+    };
+    look();
+    return words;
+  });
+  // Only its contents tell what it is.
+  await drop(page, 'ramp', obj({ points: [[0, 0, 0], [3, 0, 0], [3, 2, 1], [0, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]] }));
+  await page.locator('#mesh-name', { hasText: 'OBJ' }).waitFor();
+  assert.equal((await said.jsonValue())[0], 'Reading the file…');
+  await page.getByRole('link', { name: 'developable' }).click();
+  await page.locator('[data-example="scan"]').click();
+  await page.locator('#input-caption', { hasText: 'roof' }).waitFor();
+  assert.equal((await said.jsonValue()).some((words) => /Nothing/.test(words)), false);
+}, { start: '' });
+
+pageTest('letters have the sizes of the scale in www/design.md, and no others', async (page) => {
+  const scale = await readFile(new URL('../../www/design.md', import.meta.url), 'utf8');
+  const [, type] = /\*\*Type\*\*([^]*?)\n/.exec(scale) ?? [];
+  const allowed = Array.from(type?.matchAll(/(\d+)(?: px| on phones)/g) ?? [], ([, size]) => `${size}px`);
+  const used = await page.evaluate(() => {
+    /** @param {CSSRuleList} rules @returns {string[]} */
+    const sizesOf = (rules) => [...rules].flatMap((rule) => {
+      const own = rule instanceof CSSStyleRule && rule.style.fontSize !== '' && rule.style.fontSize !== 'inherit' ? [rule.style.fontSize] : [];
+      return [...own, ...('cssRules' in rule ? sizesOf(/** @type {CSSRuleList} */ (rule.cssRules)) : [])];
+    });
+    return [...new Set([...document.styleSheets].flatMap((sheet) => sizesOf(sheet.cssRules)))];
+  });
+  assert.ok(allowed.length === 5 && used.includes('13px') && used.length >= 4, `${allowed} against ${used}`);
+  assert.deepEqual(used.filter((size) => !allowed.includes(size)), []);
+}, { start: '' });

@@ -35,6 +35,12 @@ pageTest('the first visit shows a solved example with its certificate', async (p
   const file = JSON.parse(saved.bytes.toString());
   assert.ok(Math.abs(100 * file.gap - gap) <= 0.1 * gap + 0.01, 'the same gap');
   assert.ok(await page.locator('#copy-command').isDisabled() && await page.locator('#copy-code').isEnabled(), 'an example is made by code alone');
+  const reason = page.locator('#report-uncopied');
+  assert.match(await reason.innerText(), /no command .* not examples/, 'and that is said where the button is');
+  await page.locator('#certificate').click();
+  const [above, below] = await Promise.all([page.locator('#copy-command'), reason].map((one) => one.boundingBox()));
+  assert.ok(above && below && below.y > above.y && below.y < above.y + 3 * above.height, 'beneath it');
+  await page.locator('#certificate').click();
   // All that the page shows.
   assert.deepEqual([file.input.name, file.input.size, file.input.noise, file.settings.gap], ['roof', 400, 0.02, target]);
   assert.match(await page.locator('#verdict').innerText(), new RegExp(`^${file.pieces} smooth pieces meet in ${file.creases} creases`));

@@ -57,7 +57,7 @@ export function cameraPanel(session, openLoadedMesh) {
     const depthSource = session.input?.depthSource;
     if (depthCheckbox.checked) show();
     // The values are heights after all.
-    else if (depthSource) void session.open('The heights could not be taken', async () => ({ ...depthSource, depths: undefined })).then((opened) => {
+    else if (depthSource) void session.open('The heights could not be taken', async () => ({ ...depthSource, depths: undefined }), 'reading').then((opened) => {
         if (opened) void session.run();
       });
     else panel.hidden = true;

@@ -46,8 +46,7 @@ export function filesPanel(session, mode, source, page) {
     } : undefined);
   };
 
-  let openCount = 0;
-  /** What was shown before the heights. @type {Mode} */
+  /** What was shown before the heights that are being opened. @type {Mode} */
   let earlier = 'home';
   /** @param {readonly File[]} files @param {boolean} [arePages] whether pictures were opened as pages */
   const open = async (files, arePages = mode.now === 'photo') => {
@@ -55,14 +54,11 @@ export function filesPanel(session, mode, source, page) {
     if (to === 'none') return showNotice(FILE_WORDS.unread(files[0].name, unreadableKindInWords(files[0])));
     const leftOut = left.length > 0 ? FILE_WORDS.leftOut(namesOfLeft(left), to === 'heights' && kindByName(taken[0]) !== 'mesh') : '';
     if (to === 'photos') return openPhotos(taken, leftOut, arePages);
-    const own = ++openCount;
-    if (mode.now !== 'heights') {
-      earlier = mode.now;
-      mode.enter('heights');
-    }
+    if (mode.now !== 'heights' || !session.isOpening) earlier = mode.now;
+    mode.show('heights');
     if (!(await source.openFiles(taken))) {
-      // Without heights there is nothing to see there, unless other files are being opened.
-      if (own === openCount && !session.input && mode.now === 'heights') mode.show(earlier);
+      // What was opened there before is not what was asked for, but something else may be being opened by now.
+      if (!session.isOpening && mode.now === 'heights') mode.show(earlier);
       return;
     }
     // The start of a run hides the notice, so it is shown afterwards.

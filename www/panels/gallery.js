@@ -57,7 +57,7 @@ export function galleryPanel(session, { adopt, choose, strip, enter, expectsInpu
     dialog.close();
     enter();
     if (card !== present) turns.replaceChildren(...(card.turns ?? []).map((angle) => new Option(`${angle}°`, String(angle))));
-    const opened = await session.open('The gallery’s input could not be made', () => cardInput(session.api, card, card.size, Number(turns.value)));
+    const opened = await session.open('The gallery’s input could not be made', () => cardInput(session.api, card, card.size, Number(turns.value)), 'making');
     if (!opened) return;
     present = card;
     inputName = session.input?.name ?? '';

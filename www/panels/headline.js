@@ -1,7 +1,7 @@
 /** The headline of heights: the result in one sentence, its certificate, and error messages. */
 import { element } from '../dom.js';
 import { count } from '../format.js';
-import { certificateInWords, HEADLINE_WORDS, noiseReductionInWords, piecesInWords } from '../messages.js';
+import { certificateInWords, HEADLINE_WORDS, noiseReductionInWords, piecesInWords, TASK_WORDS } from '../messages.js';
 import { hideNotice, showError } from './notice.js';
 
 /** Delay before the pieces of a result are counted, in milliseconds: while λ is dragged, results follow each other quickly. */
@@ -65,10 +65,12 @@ export function headlinePanel(session, analyses, stage, heights) {
     chip.hidden = true;
     main.setAttribute('aria-busy', 'false');
   });
-  session.on('phase', (phase) => {
-    page.dataset.phase = phase;
-    if (phase === 'idle' && !session.input) say('Nothing to show yet.', 'Choose an example or open a file.');
+  session.on('opening', (task) => {
+    if (session.input) return;
+    if (task) say(`${TASK_WORDS[task]}…`, '');
+    else say('Nothing to show yet.', 'Choose an example or open a file.');
   });
+  session.on('phase', (phase) => (page.dataset.phase = phase));
   session.on('unsolved', () => {
     say(HEADLINE_WORDS.unsolved, session.result ? HEADLINE_WORDS.stays : '');
     main.setAttribute('aria-busy', 'false');

@@ -43,7 +43,7 @@ export function meshPanel(session) {
      * @param {InputOrigin} origin
      * @param {(signal: AbortSignal) => Promise<Mesh>} load
      * @param {string} doing what could not be done, for the message if it fails
-     * @param {Task} [task]
+     * @param {Task} task
      */
     openLoaded: (origin, load, doing, task) => openSampledMesh(session, origin, load, { view: 'best-fit' }, doing, task),
     /**
@@ -71,7 +71,7 @@ export function meshPanel(session) {
  * @param {(signal: AbortSignal) => Promise<Mesh>} load
  * @param {SampleMeshOptions} options
  * @param {string} doing what could not be done, for the message if it fails
- * @param {Task} [task]
+ * @param {Task} task
  */
 function openSampledMesh(session, origin, load, options, doing, task) {
   return session.open(doing, async (signal) => {

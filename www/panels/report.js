@@ -31,22 +31,25 @@ export function reportPanel(session, analyses) {
   };
   on('report-save', onSave('json', 'application/json', (report) => `${JSON.stringify(report, null, 2)}\n`));
   on('report-csv', onSave('csv', 'text/csv', (report) => [['quantity', 'value'], ...figuresOf(report)].map((cells) => `${cells.map(csvCell).join(',')}\r\n`).join('')));
-  const offers = [copyButton('copy-command', REPRODUCE_WORDS.noCommand), copyButton('copy-code', REPRODUCE_WORDS.noCode)];
+  const offers = [copyButton('copy-command'), copyButton('copy-code')];
+  const uncopied = element('report-uncopied', HTMLElement);
   /** @param {boolean} isThere */
   const showReport = (isThere) => {
-    table.hidden = acts.hidden = !isThere;
+    table.hidden = acts.hidden = uncopied.hidden = !isThere;
     empty.hidden = isThere;
   };
   session.on('result', (result) => {
     table.replaceChildren(...groupsOf(result).map(rowGroup));
-    [asCommand, asCode].forEach((textOf, i) => offers[i](textOf(result)));
+    const texts = [asCommand(result), asCode(result)];
+    texts.forEach((text, i) => offers[i](text));
+    uncopied.textContent = texts.map((text, i) => (text === null ? REPRODUCE_WORDS[i] : '')).join(' ').trim();
     showReport(true);
   });
   session.on('cleared', () => showReport(false));
 }
 
-/** A button that copies a text. @param {string} id @param {string} words why there may be no text @returns {(text: string | null) => void} offers a text, or none */
-function copyButton(id, words) {
+/** A button that copies a text. @param {string} id @returns {(text: string | null) => void} offers a text, or none */
+function copyButton(id) {
   const button = element(id, HTMLButtonElement);
   const label = button.textContent;
   let [offered, timer] = ['', 0];
@@ -63,7 +66,6 @@ function copyButton(id, words) {
   return (text) => {
     offered = text ?? '';
     button.disabled = text === null;
-    button.title = text === null ? words : '';
   };
 }
 

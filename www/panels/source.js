@@ -64,7 +64,7 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
       const { input, truth } = await session.example(name, options);
       const { width, height, data, pixelSize: side = 1, heightScale: step = 1 } = input;
       return { name, width, height, data, pixelSize: side, heightScale: step, truth, example: options };
-    });
+    }, 'making');
     if (opened) await session.run();
   };
 
@@ -77,8 +77,10 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
    */
   const openFile = async (chosen, reading, photo, hasCamera = false) => {
     const kind = kindByName(chosen);
+    const unread = `“${chosen.name}” could not be read`;
     // Where a name does not tell what a file is, the contents do.
-    const format = kind === 'camera' || kind === null ? await session.api.formatOf(chosen) : undefined;
+    const format = kind === 'camera' || kind === null ? await session.whileOpening(unread, 'reading', () => session.api.formatOf(chosen)) : undefined;
+    if (format === null) return false;
     if (isMesh(chosen.name) || isMeshFormat(format)) return openMesh(chosen, [], format);
     if (kind === 'camera') {
       // Numbers may be a camera of the depths that are open, or heights.
@@ -90,7 +92,7 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
       }
     }
     let isColourPicture = false;
-    const opened = await session.open(`“${chosen.name}” could not be read`, async (signal) => {
+    const opened = await session.open(unread, async (signal) => {
       try {
         return await readInput(session.api, chosen, signal, reading, photo);
       } catch (error) {

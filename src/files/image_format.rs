@@ -5,7 +5,7 @@ use std::str::FromStr;
 #[cfg(feature = "formats")]
 use super::failure::{damaged, in_format};
 use super::signature::begins;
-use super::text::decoded;
+use super::text::{decoded, number};
 use crate::error::{Error, Result};
 
 /// An image file format that can be read.
@@ -100,7 +100,7 @@ impl Format {
             return Ok(self);
         }
         let name = found.map_or("a file of another format", Format::title);
-        Err(damaged(format!("it begins like {name}"))).map_err(in_format(self))
+        Err(in_format(self)(damaged(format!("it begins like {name}"))))
     }
 
     pub(super) fn title(self) -> &'static str {
@@ -194,7 +194,7 @@ pub(super) fn is_text_grid(bytes: &[u8]) -> bool {
     let lines = head
         .lines()
         .filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
-    let is_number = |word: &str| word.replace(',', ".").parse::<f64>().is_ok();
+    let is_number = |word: &str| number(&word.replace(',', ".")).is_some();
     let divides = |letter: char| letter.is_whitespace() || letter == ';';
     // A comma may divide numbers, or be a decimal one.
     lines.take(2).any(|line| {

@@ -18,7 +18,7 @@ pub enum MeshFormat {
     /// The Stanford format PLY, ASCII or binary of either byte order; a texture is named by a comment,
     /// `TextureFile`.
     Ply,
-    /// Stereolithography, ASCII or binary. Each triangle has vertices of its own.
+    /// Stereolithography, ASCII or binary, with colours as VisCAM or Magics writes them. Each triangle has vertices of its own.
     Stl,
     /// glTF 2.0 as JSON, or binary (GLB): the meshes of the default scene, with
     /// their nodes' transforms applied, and the base colours and textures of
@@ -26,7 +26,7 @@ pub enum MeshFormat {
     Gltf,
     /// 3D Manufacturing Format: the objects that are to be built, with their transforms and the file's unit.
     ThreeMf,
-    /// Object File Format in text, with or without colours and normals at the vertices.
+    /// Object File Format in text, with or without colours and normals at the vertices, or colours of the faces.
     Off,
     /// Points in text (XYZ): x, y, z in each line, with or without red, green and blue from 0 to 255 at its end.
     Xyz,
@@ -49,12 +49,10 @@ impl MeshFormat {
             let end = text.iter().position(|byte| b"\r\n".contains(byte));
             text = text[end.unwrap_or(text.len())..].trim_ascii_start();
         }
-        let first = text
-            .split(u8::is_ascii_whitespace)
-            .next()
-            .unwrap_or_default();
+        let mut heads = text.split(|byte| b"\r\n".contains(byte));
+        let line = heads.next().unwrap_or_default().trim_ascii();
         // The signature may be in capitals, as trimesh and assimp read it, too.
-        if first.eq_ignore_ascii_case(b"ply") {
+        if line.eq_ignore_ascii_case(b"ply") {
             return Some(MeshFormat::Ply);
         }
         if bytes.starts_with(b"glTF") || text.starts_with(b"{") && contains(bytes, GLTF_ASSET) {
@@ -63,13 +61,15 @@ impl MeshFormat {
         if bytes.starts_with(b"PK\x03\x04") {
             return contains(bytes, b".model").then_some(MeshFormat::ThreeMf);
         }
-        if let Some(kinds) = first.strip_suffix(b"OFF")
-            && ["", "C", "N", "CN", "NC", "ST", "STC", "STN", "STCN"]
-                .contains(&str::from_utf8(kinds).unwrap_or("?"))
+        let line = String::from_utf8_lossy(line);
+        let mut words = line.split_whitespace();
+        let kinds = words.next().and_then(|word| word.strip_suffix("OFF"));
+        if ["", "C", "N", "CN", "NC", "ST", "STC", "STN", "STCN"].contains(&kinds.unwrap_or("?"))
+            && words.all(|word| word == "BINARY" || word.parse::<u32>().is_ok())
         {
             return Some(MeshFormat::Off);
         }
-        if is_binary_stl(bytes) || begins_as_solid(bytes) {
+        if is_binary_stl(bytes) || begins_as_solid(bytes) && !is_other_text(bytes) {
             return Some(MeshFormat::Stl);
         }
         let is_vertex = |line: &str| {
@@ -117,6 +117,17 @@ fn is_binary_stl(bytes: &[u8]) -> bool {
 fn begins_as_solid(bytes: &[u8]) -> bool {
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     (text.trim_ascii_start().get(..5)).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
+}
+
+/// Returns whether a text that begins as an STL file has no line of one.
+fn is_other_text(bytes: &[u8]) -> bool {
+    let is_statement = |line: &str| {
+        let first = line.split_whitespace().next().unwrap_or_default();
+        ["facet", "endsolid"]
+            .iter()
+            .any(|name| first.eq_ignore_ascii_case(name))
+    };
+    is_ascii_stl(bytes) && !lines(&decoded(bytes)).any(|(_, line)| is_statement(&line))
 }
 
 /// Returns whether an STL file is a text: it has no zero where the highest byte of a binary file's number of triangles is.

@@ -1,7 +1,7 @@
 //! Tables of numbers in text: lines of equally many numbers, which are matrices or points.
 
 use super::failure::damaged;
-use super::text::decoded;
+use super::text::{decoded, number};
 use crate::error::{Result, checked_cells, try_filled};
 
 /// Maximum distance of a point from its place on the grid, as a share of the grid's spacing.
@@ -52,7 +52,8 @@ impl Table {
         });
         // A table that numbers its rows and columns has nothing in its corner.
         let mut starts = text.lines().map(|line| line.starts_with(CELL_DIVIDERS));
-        let is_numbered = starts.next() == Some(true) && starts.next() == Some(false);
+        let mut is_numbered = starts.next() == Some(true) && starts.next() == Some(false);
+        let mut names = 0;
         let mut values: Vec<f64> = Vec::new();
         let (mut cols, mut rows) = (0, 0);
         for (k, line) in text.lines().enumerate().skip(usize::from(is_numbered)) {
@@ -63,7 +64,13 @@ impl Table {
                     let reason = format!("line {} is no row of numbers", k + 1);
                     return Err(damaged(reason));
                 }
-                _ => continue,
+                _ => {
+                    let words = line.split(|letter: char| {
+                        letter.is_whitespace() || CELL_DIVIDERS.contains(&letter)
+                    });
+                    names = words.filter(|word| !word.is_empty()).count();
+                    continue;
+                }
             };
             // Scanners begin with a line that counts the points.
             if cols == 1 && rows == 1 && row.len() > 1 {
@@ -91,6 +98,18 @@ impl Table {
         checked_cells("matrix", rows, cols)?;
         if rows == 0 {
             return Err(damaged("it has no numbers"));
+        }
+        // R names all columns but the first, which numbers the rows.
+        let numbers = values.iter().step_by(cols);
+        if names + 1 == cols
+            && (1..)
+                .zip(numbers)
+                .all(|(k, number)| *number == f64::from(k))
+        {
+            is_numbered = true;
+            let rows = values.chunks_exact(cols);
+            values = rows.flat_map(|row| &row[1..]).copied().collect();
+            cols -= 1;
         }
         Ok(Table {
             values,
@@ -197,10 +216,10 @@ pub(super) fn numbers(text: &str, decimal_commas: bool) -> Result<Vec<f64>> {
     let divides =
         |letter: char| letter.is_whitespace() || letter == ';' || letter == ',' && !decimal_commas;
     let point = if decimal_commas { ',' } else { '.' };
-    let number = |word: &str| {
-        let number = word.replace(point, ".").parse();
-        number.map_err(|_| damaged(format!("`{word}` is no number")))
+    let parsed = |word: &str| {
+        let number = number(&word.replace(point, "."));
+        number.ok_or_else(|| damaged(format!("`{word}` is no number")))
     };
     let words = text.split(divides).filter(|word| !word.is_empty());
-    words.map(number).collect()
+    words.map(parsed).collect()
 }

@@ -22,6 +22,14 @@ pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
+/// Parses a number, or R's name of a missing one.
+pub(super) fn number(word: &str) -> Option<f64> {
+    match word {
+        "NA" => Some(f64::NAN),
+        _ => word.parse().ok(),
+    }
+}
+
 /// Iterates over the lines of a decoded text, with the number of each line's first row, from
 /// 1; a `\` at the end of a line joins the next one to it.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {

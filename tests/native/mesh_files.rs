@@ -4,7 +4,7 @@ use std::io::{Cursor, Write};
 
 use developable::files::Unit;
 use developable::files::images::{Format, decode, format_name};
-use developable::files::meshes::{FileUnit, MeshFile, read_mesh, read_mesh_beside};
+use developable::files::meshes::{FileUnit, MeshFile, MeshFormat, read_mesh, read_mesh_beside};
 use developable::{Resolution, View, sample};
 
 fn read(text: &str) -> MeshFile {
@@ -97,6 +97,118 @@ fn off_with_colours_and_normals() {
     let rows = "0 0 0  0 255 0 255  0 0 1\n9 0 0  0 255 0 255  0 0 1\n9 9 0  0 255 0 255  0 0 1\n";
     let swapped = read(&format!("NCOFF\n3 1 0\n{rows}3 0 1 2\n"));
     assert_eq!(swapped.mesh.colors().unwrap()[2], [0.0, 1.0, 0.0]);
+}
+
+/// Colour of each triangle, which its three corners have.
+fn face_colors(file: &MeshFile) -> Vec<[f32; 3]> {
+    let colors = file.mesh.colors().unwrap();
+    let of_face = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|corner| colors[corner as usize]);
+        assert!(a == b && b == c, "{a:?} {b:?} {c:?}");
+        a
+    };
+    file.mesh.triangles().iter().map(of_face).collect()
+}
+
+#[test]
+fn faces_have_colours_of_their_own() {
+    let [red, violet, white] = [[1.0, 0.0, 0.0], [0.2, 0.0, 1.0], [1.0; 3]];
+    // Bytes with opacity, shares, and a number in a table of colours.
+    for (first, second, colors) in [
+        ("255 0 0 255", "51 0 255", [red, violet]),
+        ("1.0 0 0", "0.2 0 1", [red, violet]),
+        ("1.0 0 0", "7", [red, white]),
+    ] {
+        let off = format!("OFF\n4 2 0\n{CORNERS}3 0 1 2 {first}\n3 0 2 3 {second}\n");
+        assert_eq!(face_colors(&read(&off)), colors, "{off}");
+    }
+    let same = format!("OFF\n4 2 0\n{CORNERS}3 0 1 2 9 0 0\n3 0 2 3 9 0 0\n");
+    assert_eq!(read(&same).mesh.positions().len(), 4);
+    // As MeshLab writes it.
+    let colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    let faces = "element face 2\nproperty list uchar int vertex_indices\n";
+    let ply = |vertex: &str, rows: &str| {
+        let head = format!("ply\nformat ascii 1.0\n{SQUARE}{vertex}{faces}{colors}end_header\n");
+        read(&format!("{head}{rows}3 0 1 2 255 0 0\n3 0 2 3 51 0 255\n"))
+    };
+    assert_eq!(face_colors(&ply("", CORNERS)), [red, violet]);
+    let rows = CORNERS.replace('\n', " 0 255 0\n");
+    assert_eq!(face_colors(&ply(colors, &rows)), [[0.0, 1.0, 0.0]; 2]);
+}
+
+/// A binary STL file of triangles whose last two bytes are given.
+fn stl(header: &[u8], attributes: &[u16]) -> Vec<u8> {
+    let mut bytes = [header, &vec![0; 80 - header.len()]].concat();
+    bytes.extend((attributes.len() as u32).to_le_bytes());
+    for (row, attribute) in attributes.iter().enumerate() {
+        let x = row as f32;
+        for number in [0.0, 0.0, 1.0, x, 0.0, 0.0, x + 20.0, 0.0, 0.0, x, 20.0, 0.0] {
+            bytes.extend(number.to_le_bytes());
+        }
+        bytes.extend(attribute.to_le_bytes());
+    }
+    bytes
+}
+
+#[test]
+fn triangles_of_stl_have_the_colours_of_viscam_and_magics() {
+    let colors = |header: &[u8], attributes: &[u16]| {
+        let file = read_mesh_beside(&stl(header, attributes), None, &[]).unwrap();
+        file.mesh.colors().is_some().then(|| face_colors(&file))
+    };
+    let (bit, five, ten) = (1 << 15, 31 << 5, 31 << 10);
+    // Blue is lowest, and a triangle without the bit has no colour.
+    let viscam = colors(b"made by hand", &[3, bit | 31, bit | ten, bit | five]);
+    let expected = [[1.0; 3], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    assert_eq!(viscam, Some(expected.into()));
+    // Red is lowest, and a triangle with the bit has the colour of the whole.
+    let magics = colors(
+        b"Magics COLOR=\xff\x33\0\xff,MATERIAL=",
+        &[31, bit | 31, ten],
+    );
+    let expected = [[1.0, 0.0, 0.0], [1.0, 0.2, 0.0], [0.0, 0.0, 1.0]];
+    assert_eq!(magics, Some(expected.into()));
+    assert_eq!(colors(b"", &[0, 9]), None);
+}
+
+#[test]
+fn the_rest_of_an_stl_file_that_states_fewer_triangles_is_said() {
+    let mut bytes = stl(b"", &[0; 5]);
+    let told = |bytes: &[u8]| {
+        let file = read_mesh_beside(bytes, Some(MeshFormat::Stl), &[]).unwrap();
+        let told = file
+            .assumptions
+            .iter()
+            .find(|one| one.code == "trailingBytes");
+        (
+            file.mesh.triangles().len(),
+            told.map(|one| one.words.clone()),
+        )
+    };
+    assert_eq!(told(&bytes), (5, None));
+    bytes[80] = 2;
+    let (triangles, words) = told(&bytes);
+    assert_eq!(triangles, 2);
+    assert!(words.unwrap().contains("the last 150 of its bytes"));
+}
+
+#[test]
+fn letters_are_no_meshes() {
+    let names = [
+        "Ply is what wood comes in.\n",
+        "OFF and on\n",
+        "Solid advice:\nnone\n",
+    ];
+    for letter in names {
+        let letter = letter.repeat(9);
+        assert_eq!(MeshFormat::detect(letter.as_bytes()), None, "{letter}");
+    }
+}
+
+#[test]
+fn obj_colours_may_have_an_opacity() {
+    let text = "v 0 0 0 1 0.5 0 0.25\nv 1 0 0 1 0.5 0 1\nv 0 1 0 1 0.5 0 1\nf 1 2 3\n";
+    assert_eq!(face_colors(&read(text)), [[1.0, 0.5, 0.0]]);
 }
 
 #[test]

@@ -24,7 +24,7 @@ pub(super) fn remove(values: &mut [f64], missing: f64, number_type: NumberType) 
 /// Smallest magnitude that no height, depth or level has: it stands for no data wherever it is the largest value.
 const MIN_IMPOSSIBLE_MAGNITUDE: f64 = 1e9;
 
-/// Number of times that an extreme value repeats at least for it to be no data: one such value may be an outlier.
+/// Number of times that an extreme value repeats at least for it to be no data, unless nobody would measure it even once.
 const MIN_REPETITIONS: usize = 2;
 
 /// Replaces values that nobody would measure by NaN, and returns what was assumed of them.
@@ -76,7 +76,7 @@ fn marker_of(values: &[f64]) -> Option<f64> {
     }
     let is_repeated_marker = |value: f64| {
         let count = || values.iter().filter(|other| **other == value).count();
-        is_marker(value) && count() >= MIN_REPETITIONS
+        is_marker(value) && (is_never_measured(value) || count() >= MIN_REPETITIONS)
     };
     let [is_low, is_high] = [low[0], high[0]].map(is_repeated_marker);
     let (below, above) = (low[1] - low[0], high[0] - high[1]);
@@ -92,21 +92,29 @@ fn marker_of(values: &[f64]) -> Option<f64> {
         .map(|(_, value, ..)| value)
 }
 
-/// Whether a number is one by which programs mark missing values: zero, minus one, beyond what anybody measures, three or more nines
-/// with nothing else, or a limit of a number type of 16 or more bits.
+/// Whether a number has at least as many nines as are given, and nothing else.
+fn is_nines(value: f64, count: usize) -> bool {
+    let digits = format!("{}", value.abs()).replace('.', "");
+    digits.len() >= count && digits.bytes().all(|digit| digit == b'9')
+}
+
+/// Whether a number that is the largest or smallest one stands for no data although it is there once: it is beyond what anybody
+/// measures, or has a minus and four or more nines.
+fn is_never_measured(value: f64) -> bool {
+    value.abs() >= MIN_IMPOSSIBLE_MAGNITUDE || value < 0.0 && is_nines(value, 4)
+}
+
+/// Whether a number is one by which programs mark missing values: zero, minus one, one that nobody measures, three or more nines
+/// with nothing else, two of them with a minus, or a limit of a number type of 16 or more bits.
 fn is_marker(value: f64) -> bool {
-    let is_nines = || {
-        let digits = format!("{}", value.abs()).replace('.', "");
-        digits.len() >= 3 && digits.bytes().all(|digit| digit == b'9')
-    };
     let limits = [65_504.0, 65_535.0, 32_767.0, 32_768.0, 2_147_483_647.0];
     let is_limit = limits
         .iter()
         .any(|limit| (value.abs() - limit).abs() <= 1.0);
     [0.0, -1.0].contains(&value)
-        || value.abs() >= MIN_IMPOSSIBLE_MAGNITUDE
+        || is_never_measured(value)
         || is_limit
-        || is_nines()
+        || is_nines(value, if value < 0.0 { 2 } else { 3 })
 }
 
 #[cfg(test)]
@@ -172,6 +180,12 @@ mod tests {
         );
         assert_eq!(assumed(&[f64::INFINITY]), ["infinity is no data (1 pixel)"]);
         assert_eq!(assumed(&[-9999.0, 1e20, -9999.0, 1e20]).len(), 2);
+        assert_eq!(assumed(&[-9999.0]), ["-9999 is no data (1 pixel)"]);
+        let mut few = [-99.0, -99.0, 250.0, 252.0];
+        assert_eq!(
+            assume_no_data(&mut few, false)[0].words,
+            "-99 is no data (2 pixels)"
+        );
     }
 
     #[test]
@@ -187,10 +201,11 @@ mod tests {
         // Levels of which the highest is no marker.
         let mut levels = [0.0, 0.0, 5.0, 6.0, 20.0];
         assert!(assume_no_data(&mut levels, false).is_empty());
-        // Zeros that may be the sea, a single outlier, round numbers, and a marker within the range of the others.
+        // Zeros that may be the sea, single outliers, round numbers, and a marker within the range of the others.
         for more in [
             &[0.0; 9][..],
-            &[-9999.0],
+            &[9999.0],
+            &[-32768.0],
             &[-10000.0; 3],
             &[20000.0; 9],
             &[999.0; 5],

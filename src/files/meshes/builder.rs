@@ -32,6 +32,8 @@ pub(super) struct MeshBuilder {
     pub(super) crossed_polygons: usize,
     /// Whether the file has lines between vertices, which are left out.
     pub(super) has_lines: bool,
+    /// Number of bytes after the last triangle that the file states.
+    pub(super) trailing_bytes: usize,
     /// Number of bytes left for further texture pictures; all pictures together may not exceed the size of the given
     /// files.
     pub(super) room: usize,

@@ -100,7 +100,7 @@ pub fn read_mesh_beside(
     }
     .map_err(in_format(format.title()))?;
     let has_lines = parts.has_lines;
-    let crossed = parts.crossed_polygons;
+    let (crossed, trailing) = (parts.crossed_polygons, parts.trailing_bytes);
     let textures = std::mem::take(&mut parts.pictures);
     let mesh = parts.into_mesh(format != MeshFormat::Stl);
     let mesh = mesh.map_err(in_format(format.title()))?;
@@ -115,11 +115,17 @@ pub fn read_mesh_beside(
         );
         Assumption::new("polygons", words, None)
     });
+    let trailing = (trailing > 0).then(|| {
+        let words =
+            format!("the last {trailing} of its bytes are no triangles: its header states fewer");
+        Assumption::new("trailingBytes", words, None)
+    });
     let mut file = MeshFile {
         assumptions: precision::coarse_coordinates(&mesh)
             .into_iter()
             .chain(points)
             .chain(polygons)
+            .chain(trailing)
             .collect(),
         mesh,
         textures,

@@ -58,12 +58,12 @@ struct Reader {
 }
 
 impl Reader {
-    /// Reads a vertex: a position, perhaps its weight, and perhaps a colour.
+    /// Reads a vertex: a position, perhaps its weight, or a colour and perhaps its opacity, as MeshLab and trimesh read it.
     fn vertex<'a>(&mut self, row: usize, words: impl Iterator<Item = &'a str>) -> Result<()> {
         let (position, rest) = point(row, words)?;
         self.corners.positions.push(position);
         let color = match rest[..] {
-            [r, g, b] | [_, r, g, b] => Some([r, g, b].map(|v| v as f32)),
+            [r, g, b] | [r, g, b, _] => Some([r, g, b].map(|v| v as f32)),
             _ => None,
         };
         self.corners.colors.push(color);

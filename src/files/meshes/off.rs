@@ -1,6 +1,7 @@
 //! Reads meshes in the Object File Format (OFF), in text.
 
 use super::builder::{MeshBuilder, scale_levels};
+use super::corners::{CornerMaterial, Corners};
 use super::rows::{numbers, point, whole};
 use crate::error::Result;
 use crate::files::failure::{damaged, not_read};
@@ -49,17 +50,36 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
         }
     }
     scale_levels(parts.colors.iter_mut());
+    let mut colors = Vec::new();
+    let mut polygons = Vec::new();
     for _ in 0..faces {
         let (row, line) = next()?;
         let mut words = line.split_whitespace();
         let count = numbers(row, words.by_ref().take(1))?;
         let count = count.first().map_or(0, |count| *count as usize);
-        let corners = numbers(row, words.take(count))?;
+        let corners = numbers(row, words.by_ref().take(count))?;
         if corners.len() < count {
             return Err(damaged(format!("line {row} has too few vertices")));
         }
         let corners: Result<Vec<u32>> = corners.iter().map(|v| whole(*v)).collect();
-        parts.polygon(&corners?)?;
+        polygons.push(corners?);
+        // One number is that of a colour in a file of its own, and a fourth the opacity.
+        let rest: Vec<f32> = words.map_while(|word| word.parse().ok()).collect();
+        let [r, g, b, ..] = rest[..] else {
+            colors.push(None);
+            continue;
+        };
+        colors.push(Some([r, g, b]));
+    }
+    scale_levels(colors.iter_mut().flatten());
+    // Where vertices have colours, these count.
+    let is_coloured = parts.colors.is_empty() && colors.iter().any(Option::is_some);
+    let mut corners = is_coloured.then(|| Corners::taken_from(parts));
+    for (polygon, color) in polygons.iter_mut().zip(colors) {
+        if let Some(corners) = &mut corners {
+            corners.split(polygon, &[], CornerMaterial::of_face(color), parts)?;
+        }
+        parts.polygon(polygon)?;
     }
     Ok(())
 }

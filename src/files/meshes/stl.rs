@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use nalgebra::Vector3;
 
-use super::builder::MeshBuilder;
+use super::builder::{DEFAULT_VERTEX_COLOUR, MeshBuilder};
 use super::narrow::narrowed;
 use super::rows::point;
 use crate::error::Result;
@@ -39,6 +39,8 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
                 format!("the file of {length} bytes is too short for the triangles that it states");
             damaged(reason)
         })?;
+    parts.trailing_bytes = bytes.len() - STL_HEADER_BYTES - triangles.len();
+    let base = base_colour(&bytes[..STL_HEADER_BYTES]);
     for triangle in triangles.as_chunks::<STL_TRIANGLE_BYTES>().0 {
         let start = parts.positions.len() as u32;
         // Three numbers each: a normal, and the corners.
@@ -46,8 +48,42 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
             parts.position([0, 4, 8].map(|at| NumberType::F32.value(&corner[at..], false)))?;
         }
         parts.triangle([start, start + 1, start + 2])?;
+        let attribute = u16::from_le_bytes([triangle[48], triangle[49]]);
+        if let Some(colour) = colour(attribute, base) {
+            (parts.colors).resize(start as usize, DEFAULT_VERTEX_COLOUR);
+            parts.colors.extend([colour; 3]);
+        }
+    }
+    if !parts.colors.is_empty() {
+        (parts.colors).resize(parts.positions.len(), DEFAULT_VERTEX_COLOUR);
     }
     Ok(())
+}
+
+/// Text in the header of a binary STL file as Magics writes it, which the colour of the whole follows as four bytes.
+const COLOUR_LABEL: &[u8] = b"COLOR=";
+
+/// Bit of a triangle's attribute that says, as VisCAM writes it, that the others are its colour, and as Magics does, that they
+/// are none.
+const COLOUR_BIT: u16 = 1 << 15;
+
+/// Colour of the whole by the header of a file as Magics writes it.
+fn base_colour(header: &[u8]) -> Option<[f32; 3]> {
+    let mut places = header.windows(COLOUR_LABEL.len() + 3);
+    let label = places.find(|place| place.starts_with(COLOUR_LABEL))?;
+    let levels = label.last_chunk::<3>()?;
+    Some(levels.map(|level| f32::from(level) / f32::from(u8::MAX)))
+}
+
+/// Colour of a triangle by its attribute, five bits for each channel, and the colour of the whole if the file is one of Magics.
+fn colour(attribute: u16, base: Option<[f32; 3]>) -> Option<[f32; 3]> {
+    let channels = [0, 5, 10].map(|bit| f32::from(attribute >> bit & 31) / 31.0);
+    let has_bit = attribute & COLOUR_BIT != 0;
+    match base {
+        Some(base) if has_bit => Some(base),
+        Some(_) => Some(channels),
+        None => has_bit.then(|| [channels[2], channels[1], channels[0]]),
+    }
 }
 
 /// Reads the vertices of all solids of an ASCII STL file, three for each triangle.

@@ -175,12 +175,14 @@ fn heights_among(named: &[NamedChannel], layers: &[Header]) -> Option<(usize, Ch
     // Blender calls the value of its depth pass `Depth.Z` or `Depth.V`; other passes have a `Z` of their own.
     let of_depth = |one: &&NamedChannel| one.group.rsplit('.').next() == Some("depth");
     let depth = || (named.iter().filter(of_depth)).find(|one| ["v", "z"].contains(&&*one.name));
-    let called = |wanted: &str| named.iter().find(|one| one.name == wanted);
     let beside = |one: &NamedChannel, wanted: &str| {
         named.iter().find(|other| {
             (other.layer, &other.group, &*other.name) == (one.layer, &one.group, wanted)
         })
     };
+    // The coordinates of a normal or of a place in the scene are no depths.
+    let is_of_vector = |one: &NamedChannel| !one.group.is_empty() && beside(one, "x").is_some();
+    let called = |wanted: &str| (named.iter()).find(|one| one.name == wanted && !is_of_vector(one));
     let grey = || {
         (named.iter().filter(of_depth).chain(named)).find_map(|one| {
             (["r", "g", "b"].into_iter())
@@ -284,5 +286,14 @@ mod tests {
         ] {
             assert_eq!(decode(&layers(&parts)).unwrap().values, [5.0; 2]);
         }
+    }
+
+    #[test]
+    fn coordinates_of_a_normal_are_no_depths() {
+        let normals = [("N.X", 0.0), ("N.Y", 0.0), ("N.Z", 1.0)];
+        let error = decode(&layers(&[("", &normals)])).unwrap_err();
+        assert!(error.to_string().contains("`N.Z`"), "{error}");
+        let points = [("X", 1.0), ("Y", 2.0), ("Z", 5.0)];
+        assert_eq!(decode(&layers(&[("", &points)])).unwrap().values, [5.0; 2]);
     }
 }

@@ -18,6 +18,9 @@ const WEB_MERCATOR: u16 = 3857;
 /// Number of the key `ProjLinearUnitsGeoKey` of the GeoTIFF format, the unit of map coordinates.
 const LINEAR_UNIT_KEY: u16 = 3076;
 
+/// Number of the key `ProjLinearUnitSizeGeoKey` of the GeoTIFF format, the length of that unit in metres if it has no number.
+const LINEAR_UNIT_SIZE_KEY: u16 = 3077;
+
 /// Number of the key `VerticalUnitsGeoKey` of the GeoTIFF format, the unit of heights.
 const VERTICAL_UNIT_KEY: u16 = 4099;
 
@@ -47,14 +50,9 @@ const ELLIPSOID_ECCENTRICITY_SQUARED: f64 = 0.006_694_379_990_14;
 const WGS84_KEYS: [u16; 16] = [1, 1, 0, 3, 1024, 0, 1, 2, 1025, 0, 1, 2, 2048, 0, 1, 4326];
 
 impl Georeference {
-    /// Creates the georeference of pixels of degrees of longitude and latitude, of which the first is in the north-west.
+    /// Creates the georeference of pixels of degrees of longitude and latitude, of which the first has its middle in the north-west.
     pub(super) fn of_degrees([west, north]: [f64; 2], [across, down]: [f64; 2]) -> Self {
-        Georeference {
-            transformation: [across, 0.0, west, 0.0, -down, north],
-            keys: WGS84_KEYS.into(),
-            doubles: Vec::new(),
-            text: String::new(),
-        }
+        Georeference::new([across, 0.0, west, 0.0, -down, north], &WGS84_KEYS)
     }
 
     /// Whether map coordinates are degrees of longitude and latitude.
@@ -64,7 +62,7 @@ impl Georeference {
 
     /// Length of the unit of map coordinates in metres, if the file says it.
     pub(super) fn linear_unit(&self) -> Option<f64> {
-        metres(self.key(LINEAR_UNIT_KEY)?)
+        metres(self.key(LINEAR_UNIT_KEY)?).or_else(|| self.number(LINEAR_UNIT_SIZE_KEY))
     }
 
     /// Length of the unit of heights in metres, if the file says it.
@@ -81,7 +79,9 @@ impl Georeference {
     /// degrees, and the unit of a Web Mercator map.
     pub(super) fn latitude(&self, (width, height): (usize, usize)) -> Option<f64> {
         let [.., d, e, f] = self.transformation;
-        let north = d * width as f64 / 2.0 + e * height as f64 / 2.0 + f;
+        let ends = f64::from(u8::from(self.is_point()));
+        let [i, j] = [width, height].map(|side| 0.5 * (side as f64 - ends));
+        let north = d * i + e * j + f;
         if self.is_geographic() {
             return Some(north);
         }
@@ -176,12 +176,10 @@ mod tests {
     #[test]
     fn a_web_mercator_map_has_the_lengths_of_the_ground() {
         // 60° N is 8,399,737.89 there (EPSG's Guidance Note 7-2), and a degree 55.800 km by 111.412 km on the ground.
-        let map = Georeference {
-            transformation: [10.0, 0.0, 0.0, 0.0, -10.0, 8_399_737.89],
-            keys: vec![1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 3857],
-            doubles: Vec::new(),
-            text: String::new(),
-        };
+        let map = Georeference::new(
+            [10.0, 0.0, 0.0, 0.0, -10.0, 8_399_737.89],
+            &[1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 3857],
+        );
         let [x, y] = map.pixel_sides((0, 0));
         let degree = 111_319.491;
         assert!((x - 10.0 * 55_800.0 / degree).abs() < 1e-3, "{x}");
@@ -189,13 +187,22 @@ mod tests {
     }
 
     #[test]
+    fn a_unit_without_a_number_has_its_length() {
+        // As GDAL writes kilometres.
+        let keys = [
+            1, 1, 0, 3, 1024, 0, 1, 1, 3076, 0, 1, 32767, 3077, 34736, 1, 1,
+        ];
+        let mut map = Georeference::new([0.5, 0.0, 0.0, 0.0, -0.5, 0.0], &keys);
+        map.doubles = vec![7.0, 1000.0];
+        assert_eq!(map.pixel_size((2, 2)), 500.0);
+    }
+
+    #[test]
     fn degrees_get_the_size_that_is_given() {
-        let map = Georeference {
-            transformation: [1e-3, 0.0, 11.0, 0.0, -2e-3, 47.5],
-            keys: vec![1, 1, 0, 1, 1024, 0, 1, 2],
-            doubles: Vec::new(),
-            text: String::new(),
-        };
+        let map = Georeference::new(
+            [1e-3, 0.0, 11.0, 0.0, -2e-3, 47.5],
+            &[1, 1, 0, 1, 1024, 0, 1, 2],
+        );
         let scaled = map.with_pixel_size((90, 70), 4.0);
         let [x, y] = scaled.pixel_sides((90, 70));
         assert!((x - 4.0).abs() < 1e-6 && (y - 4.0).abs() < 1e-6, "{x} {y}");
@@ -208,13 +215,11 @@ mod tests {
     #[test]
     fn heights_are_in_the_unit_of_their_coordinate_system() {
         // As GDAL writes NAD83(2011) / UTM zone 18N + NAVD88 height (ftUS), without a unit.
-        let map = |vertical: u16| Georeference {
-            transformation: [1.0, 0.0, 0.0, 0.0, -1.0, 0.0],
-            keys: vec![
+        let map = |vertical: u16| {
+            let keys = [
                 1, 1, 1, 3, 1024, 0, 1, 1, 3072, 0, 1, 6347, 4096, 0, 1, vertical,
-            ],
-            doubles: Vec::new(),
-            text: String::new(),
+            ];
+            Georeference::new([1.0, 0.0, 0.0, 0.0, -1.0, 0.0], &keys)
         };
         assert_eq!(map(6360).vertical_unit(), Some(1200.0 / 3937.0));
         assert_eq!(map(5703).vertical_unit(), None);
@@ -222,12 +227,7 @@ mod tests {
 
     #[test]
     fn reversed_rows_lie_where_they_lay() {
-        let mut map = Georeference {
-            transformation: [2.0, 0.5, 100.0, 0.25, 3.0, 200.0],
-            keys: Vec::new(),
-            doubles: Vec::new(),
-            text: String::new(),
-        };
+        let mut map = Georeference::new([2.0, 0.5, 100.0, 0.25, 3.0, 200.0], &[]);
         let corner = |map: &Georeference, i: f64, j: f64| {
             let [a, b, c, d, e, f] = map.transformation;
             [a * i + b * j + c, d * i + e * j + f]

@@ -24,8 +24,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     }
 }
 
-/// Makes an image of the values of a grid of columns and rows, whose cells have the given sides and whose south-west corner has
-/// the given place if these are known, as is the value that means no data.
+/// Makes an image of the values of a grid of columns and rows, whose cells have the given sides and whose south-west one has
+/// its middle at the given place if these are known, as is the value that means no data.
 ///
 /// # Errors
 /// [`Error::Format`](crate::Error::Format) for another number of values, and for sides that are no lengths.
@@ -33,7 +33,7 @@ fn image(
     values: Vec<f64>,
     size: (usize, usize),
     sides: Option<[f64; 2]>,
-    corner: Option<[f64; 2]>,
+    middle: Option<[f64; 2]>,
     no_data: Option<f64>,
 ) -> Result<StoredImage> {
     let count = checked_cells("text grid", size.1, size.0)?;
@@ -54,14 +54,19 @@ fn image(
         no_data,
         ..StoredImage::new(size, values, NumberType::F64)
     };
-    let map = (sides.zip(corner)).and_then(|(sides, corner)| degrees(&image, sides, corner));
-    if let Some(map) = map {
+    let place = sides.zip(middle.filter(|place| place.iter().all(|v| v.is_finite())));
+    if let Some(map) = place.and_then(|(sides, middle)| degrees(&image, sides, middle)) {
         let words = "coordinates are degrees of longitude and latitude, and heights are metres";
         image
             .assumptions
             .push(Assumption::new("mapUnit", words, "pixelSize"));
         let (sides, unit) = map_sides(&map, size, &mut image.assumptions)?;
         (image.sides, image.unit) = (Some(sides), unit);
+        image.georeference = Some(map);
+    } else if let Some(([dx, dy], [x, y])) = place {
+        let north = y + dy * (size.1 as f64 - 0.5);
+        let transformation = [dx, 0.0, x - 0.5 * dx, 0.0, -dy, north];
+        image.georeference = Some(Georeference::new(transformation, &[]));
     }
     Ok(image)
 }
@@ -72,11 +77,12 @@ fn degrees(
     [dx, dy]: [f64; 2],
     [west, south]: [f64; 2],
 ) -> Option<Georeference> {
-    let [width, height] = [dx * image.size.0 as f64, dy * image.size.1 as f64];
+    let (cols, rows) = image.size;
+    let [width, height] = [(cols, dx), (rows, dy)].map(|(n, side)| (n - 1) as f64 * side);
     let north = south + height;
     let is_on_globe = west >= -180.0 && west + width <= 360.0 && south >= -90.0 && north <= 90.0;
     // A place of its own, and not the origin of a model.
-    let is_map = is_on_globe && [west, south] != [0.0; 2];
+    let is_map = is_on_globe && (west.abs() > 0.5 * dx || south.abs() > 0.5 * dy);
     let mut heights = is_map.then(|| image.values.clone())?;
     if let Some(missing) = image.no_data {
         no_data::remove(&mut heights, missing, image.number_type);
@@ -118,12 +124,13 @@ fn esri_grid(text: &str) -> Result<Option<StoredImage>> {
         return Err(not_read(CONVERT_RAW));
     }
     let no_data = number("nodata_value")?;
-    let [x, y] = ["x", "y"].map(|axis| -> Result<Option<f64>> {
-        let place = number(&format!("{axis}llcorner"))?;
-        Ok(place.or(number(&format!("{axis}llcenter"))?))
+    let [x, y] = [("x", dx), ("y", dy)].map(|(axis, side)| -> Result<Option<f64>> {
+        let corner = number(&format!("{axis}llcorner"))?.zip(side);
+        let middle = corner.map(|(corner, side)| corner + 0.5 * side);
+        Ok(middle.or(number(&format!("{axis}llcenter"))?))
     });
-    let corner = x?.zip(y?).map(<[f64; 2]>::from);
-    image(values, size, sides, corner, no_data).map(Some)
+    let middle = x?.zip(y?).map(<[f64; 2]>::from);
+    image(values, size, sides, middle, no_data).map(Some)
 }
 
 /// Reads what follows the first word of a grid of Surfer: numbers of columns and rows, ranges of x, y and z, and the rows
@@ -225,6 +232,25 @@ mod tests {
         assert!(error.contains("5 values, but 2 rows of 3"), "{error}");
         let header = decode(b"ncols 3\nnrows 2\ncellsize 1\nbyteorder LSBFIRST\n").unwrap_err();
         assert!(header.to_string().contains("gdal_translate"), "{header}");
+    }
+
+    #[test]
+    fn grids_keep_their_place_on_a_map() {
+        let corner = "ncols 3\nnrows 2\nxllcorner 4\nyllcorner 5\ncellsize 2\n1 2 3\n4 5 6\n";
+        let center = corner
+            .replace("xllcorner 4", "xllcenter 5")
+            .replace("yllcorner 5", "yllcenter 6");
+        let surfer = "DSAA\n3 2\n5 9\n6 8\n1 6\n4 5 6\n1 2 3\n";
+        let points = "5 6 4\n7 6 5\n9 6 6\n5 8 1\n7 8 2\n9 8 3\n";
+        for text in [corner, &center, surfer, points] {
+            let map = decode(text.as_bytes()).unwrap().georeference.unwrap();
+            assert_eq!(
+                map.transformation,
+                [2.0, 0.0, 4.0, 0.0, -2.0, 9.0],
+                "{text}"
+            );
+        }
+        assert_eq!(decode(b"1 2\n3 4\n").unwrap().georeference, None);
     }
 
     /// Heights of 1 to 5 beside a third without data are no needle, whichever number stands for these.
@@ -388,6 +414,21 @@ mod tests {
             assert_eq!(told[0].code, "matrix");
         }
         assert_eq!(read("1 2;\n3 4;\n").3, [1.0, 2.0, 3.0, 4.0]);
+        // By R's `write.table`, with its name for a missing number; prose before a matrix names no columns.
+        for (text, numbers) in [
+            (
+                "\"V1\" \"V2\" \"V3\"\n\"1\" 5 6 NA\n\"2\" 7 8 9\n",
+                [5.0, 6.0, 7.0, 8.0],
+            ),
+            (
+                "three named columns\n2 5 6 NA\n1 7 8 9\n",
+                [2.0, 5.0, 6.0, 1.0],
+            ),
+        ] {
+            let known: Vec<f64> = (read(text).3.into_iter()).filter(|v| !v.is_nan()).collect();
+            assert_eq!(known[..4], numbers, "{text}");
+            assert_eq!(Format::detect(text.as_bytes()), Some(Format::Text));
+        }
     }
 
     #[test]

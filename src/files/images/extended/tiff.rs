@@ -200,7 +200,7 @@ fn write_map<W: Write + Seek, K: TiffKind>(
 
 #[cfg(test)]
 mod tests {
-    use ::tiff::encoder::Rational;
+    use ::tiff::encoder::{ImageEncoder, Rational, TiffKindStandard, TiffValue};
     use ::tiff::tags::ResolutionUnit;
 
     use super::*;
@@ -219,17 +219,118 @@ mod tests {
         file.into_inner()
     }
 
-    #[test]
-    fn proportions_of_pixels_are_no_size() {
+    /// An image with what a function writes of tags.
+    fn file<C: colortype::ColorType>(
+        [width, height]: [u32; 2],
+        pixels: &[C::Inner],
+        write: impl FnOnce(&mut ImageEncoder<'_, &mut Cursor<Vec<u8>>, C, TiffKindStandard>),
+    ) -> Vec<u8>
+    where
+        [C::Inner]: TiffValue,
+    {
         let mut file = Cursor::new(Vec::new());
         let mut encoder = TiffEncoder::new(&mut file).unwrap();
-        let mut image = encoder.new_image::<colortype::Gray32Float>(8, 3).unwrap();
-        image.resolution(ResolutionUnit::None, Rational { n: 72, d: 1 });
-        image.y_resolution(Rational { n: 36, d: 1 });
+        let mut image = encoder.new_image::<C>(width, height).unwrap();
+        write(&mut image);
+        image.write_data(pixels).unwrap();
+        file.into_inner()
+    }
+
+    /// An image of 3 × 2 heights with tags of numbers.
+    fn on_map(tags: &[(Tag, &[f64])]) -> Vec<u8> {
+        let heights = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        file::<colortype::Gray32Float>([3, 2], &heights, |image| {
+            for (tag, numbers) in tags {
+                image.encoder().write_tag(*tag, *numbers).unwrap();
+            }
+        })
+    }
+
+    #[test]
+    fn unsound_places_on_a_map_are_said() {
+        let scale = (Tag::ModelPixelScaleTag, &[2.0, 2.0, 0.0][..]);
+        let ties: [(&[f64], bool); 4] = [
+            (&[0.0, 0.0, 0.0, f64::NAN, 9.0, 0.0], true),
+            (&[0.0, 0.0, 0.0], true),
+            (&[0.0, 0.0, 0.0, 7.0, 9.0, 0.0], false),
+            (&[0.0, 0.0, 0.0, 7.0, 9.0], false),
+        ];
+        for (tie, is_said) in ties {
+            let bytes = on_map(&[scale, (Tag::ModelTiepointTag, tie)]);
+            let read = decode(&bytes, &DecodeOptions::default()).unwrap();
+            assert_eq!(read.sides, Some([2.0; 2]));
+            let said = read.assumptions.iter().any(|one| one.code == "place");
+            assert_eq!(
+                (said, read.georeference.is_none()),
+                (is_said, is_said),
+                "{tie:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn several_tie_points_say_how_large_pixels_are() {
+        let corner = |i: f64, j: f64| [i, j, 0.0, 4e5 + 2.0 * i, 5e6 - 2.5 * j, 0.0];
+        let ties = [
+            corner(0.0, 0.0),
+            corner(3.0, 0.0),
+            corner(0.0, 2.0),
+            corner(3.0, 2.0),
+        ];
+        let read = |ties: &[[f64; 6]]| {
+            let bytes = on_map(&[(Tag::ModelTiepointTag, ties.as_flattened())]);
+            decode(&bytes, &DecodeOptions::default()).unwrap()
+        };
+        let map = read(&ties).georeference.unwrap().transformation;
+        for (found, known) in map.into_iter().zip([2.0, 0.0, 4e5, 0.0, -2.5, 5e6]) {
+            assert!((found - known).abs() < 1e-9, "{map:?}");
+        }
+        // On a line.
+        assert!(read(&ties[..2]).georeference.is_none());
+    }
+
+    #[test]
+    fn a_sign_of_the_height_of_pixels_turns_nothing() {
+        let scale = (Tag::ModelPixelScaleTag, &[2.0, -2.0, 0.0][..]);
+        let tie = (Tag::ModelTiepointTag, &[0.0, 0.0, 0.0, 7.0, 9.0, 0.0][..]);
+        let read = decode(&on_map(&[scale, tie]), &DecodeOptions::default()).unwrap();
+        assert_eq!(read.values[..3], [1.0, 2.0, 3.0]);
+        let map = read.georeference.unwrap().transformation;
+        assert_eq!(map, [2.0, 0.0, 7.0, 0.0, -2.0, 9.0]);
+    }
+
+    #[test]
+    fn strips_that_are_left_out_are_no_heights() {
+        let mut bytes = on_map(&[]);
+        // The directory's entry of the places of strips, as two bytes for its tag, two for its type, four for their number.
+        let entry = [0x11, 0x01, 4, 0, 1, 0, 0, 0];
+        let place = bytes.windows(8).position(|there| there == entry).unwrap();
+        bytes[place + 8..place + 12].fill(0);
+        let error = decode(&bytes, &DecodeOptions::default()).unwrap_err();
+        assert!(error.to_string().contains("left out"), "{error}");
+    }
+
+    #[test]
+    fn tags_of_microscopes_and_of_decimal_commas_are_read() {
+        let bytes = file::<colortype::Gray32Float>([2, 1], &[1.0, -9999.5], |image| {
+            image.resolution(ResolutionUnit::Inch, Rational { n: 1, d: 2 });
+            let tags = image.encoder();
+            tags.write_tag(Tag::ResolutionUnit, 5u16).unwrap();
+            tags.write_tag(Tag::GdalNodata, "-9999,5").unwrap();
+        });
+        let read = decode(&bytes, &DecodeOptions::default()).unwrap();
+        assert_eq!((read.sides, read.no_data), (Some([2e-3; 2]), Some(-9999.5)));
+    }
+
+    #[test]
+    fn proportions_of_pixels_are_no_size() {
         // A relief of 0.01, beside which pixels 1 wide are a slab.
         let heights: Vec<f32> = (0..24).map(|i| 0.001 * i as f32).collect();
-        image.write_data(&heights).unwrap();
-        let stored = decode(&file.into_inner(), &DecodeOptions::default()).unwrap();
+        let bytes = file::<colortype::Gray32Float>([8, 3], &heights, |image| {
+            image.resolution(ResolutionUnit::None, Rational { n: 72, d: 1 });
+            image.y_resolution(Rational { n: 36, d: 1 });
+        });
+        let stored = decode(&bytes, &DecodeOptions::default()).unwrap();
         assert_eq!(
             (stored.sides, stored.unit, stored.aspect),
             (None, None, 2.0)
@@ -244,17 +345,13 @@ mod tests {
 
     #[test]
     fn pixels_have_the_size_that_a_microscope_describes() {
-        let mut file = Cursor::new(Vec::new());
-        let mut encoder = TiffEncoder::new(&mut file).unwrap();
-        let mut image = encoder.new_image::<colortype::Gray8>(2, 1).unwrap();
         // As tifffile writes it, with an attribute whose name is the beginning of another's.
         let described = r#"<?xml version="1.0"?><OME><Image ID="Image:0"><Pixels SizeX="2" SizeY="1" PhysicalSizeXUnit="nm" PhysicalSizeX="250" PhysicalSizeY="0.25"/></Image></OME>"#;
-        image
-            .encoder()
-            .write_tag(Tag::ImageDescription, described)
-            .unwrap();
-        image.write_data(&[1, 2]).unwrap();
-        let stored = decode(&file.into_inner(), &DecodeOptions::default()).unwrap();
+        let bytes = file::<colortype::Gray8>([2, 1], &[1, 2], |image| {
+            let tags = image.encoder();
+            tags.write_tag(Tag::ImageDescription, described).unwrap();
+        });
+        let stored = decode(&bytes, &DecodeOptions::default()).unwrap();
         let [x, y] = stored.sides.unwrap();
         assert!(
             (x - 2.5e-4).abs() < 1e-12 && (y - 2.5e-4).abs() < 1e-12,
@@ -270,15 +367,13 @@ mod tests {
                 pixel_size,
                 ..DecodeOptions::default()
             };
-            let mut file = Cursor::new(Vec::new());
-            let mut encoder = TiffEncoder::new(&mut file).unwrap();
-            let mut image = encoder.new_image::<colortype::Gray32Float>(8, 3).unwrap();
-            image.resolution(ResolutionUnit::Inch, Rational { n: 254, d: 1 });
-            let tags = image.encoder();
-            tags.write_tag(Tag::ImageDescription, description).unwrap();
             let heights: Vec<f32> = (0..24).map(|i| i as f32).collect();
-            image.write_data(&heights).unwrap();
-            let stored = decode(&file.into_inner(), &options).unwrap();
+            let bytes = file::<colortype::Gray32Float>([8, 3], &heights, |image| {
+                image.resolution(ResolutionUnit::Inch, Rational { n: 254, d: 1 });
+                let tags = image.encoder();
+                tags.write_tag(Tag::ImageDescription, description).unwrap();
+            });
+            let stored = decode(&bytes, &options).unwrap();
             let read = stored.finish(Format::Tiff, &options).unwrap();
             let told = read.assumptions.iter().map(|one| one.words.clone());
             (read.pixel_size, read.height_scale, told.collect::<Vec<_>>())
@@ -301,12 +396,7 @@ mod tests {
     /// As a map without a coordinate system has it.
     #[test]
     fn a_tie_point_alone_is_kept() {
-        let map = Georeference {
-            transformation: [0.5, 0.0, 432_100.0, 0.0, -0.5, 5_412_300.0],
-            keys: Vec::new(),
-            doubles: Vec::new(),
-            text: String::new(),
-        };
+        let map = Georeference::new([0.5, 0.0, 432_100.0, 0.0, -0.5, 5_412_300.0], &[]);
         let image = HeightImage::new(2, 2, vec![1.0, 2.0, 3.0, 4.0]).unwrap();
         let image = image.with_pixel_size(0.5).unwrap();
         let options = DecodeOptions::default();

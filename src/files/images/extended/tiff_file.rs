@@ -33,6 +33,12 @@ pub(crate) fn open<'a>(bytes: &'a [u8], max_bytes: usize) -> Result<File<'a>> {
         let reason = "its first image is a reduced one, as in a raw photo of a camera; save the photo as JPEG";
         return Err(not_read(reason));
     }
+    let [offsets, _] = chunk_tags(&file);
+    if (file.get_tag_u64_vec(offsets)).is_ok_and(|offsets| offsets.contains(&0)) {
+        let reason =
+            "strips or tiles that are left out; `gdal_translate IN.tif OUT.tif` writes them all";
+        return Err(not_read(reason));
+    }
     match inflated(bytes, &mut file, max_bytes)? {
         Some(inflated) => open(inflated.into()),
         None => Ok(file),
@@ -47,6 +53,14 @@ const LONG: u64 = 4;
 /// Number of the TIFF type of unsigned numbers of 64 bits.
 const LONG8: u64 = 16;
 
+/// Tags of the places and lengths of a picture's strips or tiles.
+fn chunk_tags(file: &File) -> [Tag; 2] {
+    match file.get_chunk_type() {
+        ChunkType::Strip => [Tag::StripOffsets, Tag::StripByteCounts],
+        ChunkType::Tile => [Tag::TileOffsets, Tag::TileByteCounts],
+    }
+}
+
 /// Returns the file with plain strips or tiles; `None` if those of its first image are not compressed by Zstandard. They have
 /// `max_bytes` together at most.
 fn inflated(bytes: &[u8], file: &mut File, max_bytes: usize) -> Result<Option<Vec<u8>>> {
@@ -54,10 +68,7 @@ fn inflated(bytes: &[u8], file: &mut File, max_bytes: usize) -> Result<Option<Ve
     if method != Some(CompressionMethod::ZSTD.to_u16()) {
         return Ok(None);
     }
-    let tags = match file.get_chunk_type() {
-        ChunkType::Strip => [Tag::StripOffsets, Tag::StripByteCounts],
-        ChunkType::Tile => [Tag::TileOffsets, Tag::TileByteCounts],
-    };
+    let tags = chunk_tags(file);
     let [offsets, counts] = tags.map(|tag| file.get_tag_u64_vec(tag).map_err(failed));
     let mut plain = bytes.to_vec();
     let mut places = [Vec::new(), Vec::new()];

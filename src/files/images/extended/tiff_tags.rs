@@ -3,6 +3,7 @@
 use ::tiff::decoder::BufferLayoutPreference;
 use ::tiff::decoder::ifd::Value;
 use ::tiff::tags::Tag;
+use nalgebra::{Matrix3, Matrix3x2, RowVector2, Vector3};
 
 use super::tiff_file::{File, failed};
 use crate::error::Result;
@@ -41,10 +42,9 @@ pub(super) fn has_more_images(file: &mut File) -> bool {
 
 /// Value of the tag `ResolutionUnit` of the TIFF format for no unit.
 const RESOLUTION_UNIT_NONE: u16 = 1;
-/// Value of the tag `ResolutionUnit` of the TIFF format for inches.
-const PER_INCH: u16 = 2;
-/// Value of the tag `ResolutionUnit` of the TIFF format for centimetres.
-const PER_CENTIMETRE: u16 = 3;
+/// Lengths in millimetres of the units that the tag `ResolutionUnit` of the TIFF format numbers from 2: inches and centimetres, and
+/// what microscopes add, millimetres and micrometres.
+const RESOLUTION_UNITS: [f64; 4] = [25.4, 10.0, 1.0, 1e-3];
 
 /// Number of the TIFF tag `GDAL_METADATA`, an XML text with the scale, the offset and the unit of heights.
 pub(super) const GDAL_METADATA: Tag = Tag::Unknown(42112);
@@ -63,14 +63,14 @@ pub(super) fn read(
     number_type: NumberType,
     options: &DecodeOptions,
 ) -> Result<PixelTags> {
-    let georeference = georeference(file)?;
     let mut assumptions = Vec::new();
+    let georeference = georeference(file, &mut assumptions)?;
     let mut own_unit = None;
     let (sides, unit) = match &georeference {
         Some(map) => {
             let (sides, unit) = map_sides(map, size, &mut assumptions)?;
-            // Without a unit 1 is what is written of pixels of unknown size.
-            let is_known = unit.is_some() || sides != [1.0; 2];
+            // Without a unit and a place 1 is what is written of pixels of unknown size.
+            let is_known = unit.is_some() || map.has_place() || sides != [1.0; 2];
             (Some(sides).filter(|_| is_known), unit)
         }
         None => {
@@ -147,14 +147,17 @@ pub(super) fn has_alpha(file: &mut File) -> Result<bool> {
 }
 
 /// Reads where the pixels lie on a map; `None` if no tag says how large they are there.
-fn georeference(file: &mut File) -> Result<Option<Georeference>> {
+fn georeference(
+    file: &mut File,
+    assumptions: &mut Vec<Assumption>,
+) -> Result<Option<Georeference>> {
     let mut numbers = |tag| -> Result<Option<Vec<f64>>> {
         let value = file.find_tag(tag).map_err(failed)?;
         value
             .map(|value| value.into_f64_vec().map_err(failed))
             .transpose()
     };
-    let transformation = match (
+    let mut transformation = match (
         numbers(Tag::ModelTransformationTag)?,
         numbers(Tag::ModelPixelScaleTag)?,
     ) {
@@ -167,15 +170,31 @@ fn georeference(file: &mut File) -> Result<Option<Georeference>> {
             let tie = numbers(Tag::ModelTiepointTag)?.unwrap_or_default();
             let [i, j, u, v] = match tie[..] {
                 [i, j, _, u, v, ..] => [i, j, u, v],
-                _ => [0.0; 4],
+                [] => [0.0; 4],
+                _ => [f64::NAN; 4],
             };
-            [x, 0.0, u - i * x, 0.0, -y, v + j * y]
+            // GDAL leaves out a sign of y, which programs write by mistake.
+            [x, 0.0, u - i * x, 0.0, -y.abs(), v + j * y.abs()]
         }
         (Some(_), None) => {
             return Err(damaged("its transformation to the map lacks a number"));
         }
-        (None, None) => return Ok(None),
+        (None, None) => {
+            let ties = numbers(Tag::ModelTiepointTag)?.unwrap_or_default();
+            let Some(fitted) = fitted(ties.as_chunks().0) else {
+                return Ok(None);
+            };
+            let words = "the image lies on the map as its tie points say on the whole";
+            assumptions.push(Assumption::new("place", words, None));
+            fitted
+        }
     };
+    let [_, _, x, _, _, y] = &mut transformation;
+    if !(x.is_finite() && y.is_finite()) {
+        (*x, *y) = (0.0, 0.0);
+        let words = "the image lies at the origin of the map: its tie point is not sound";
+        assumptions.push(Assumption::new("place", words, None));
+    }
     let doubles = numbers(Tag::GeoDoubleParamsTag)?.unwrap_or_default();
     let keys = match file.find_tag(Tag::GeoKeyDirectoryTag).map_err(failed)? {
         Some(directory) => directory.into_u16_vec().map_err(failed)?,
@@ -191,6 +210,27 @@ fn georeference(file: &mut File) -> Result<Option<Georeference>> {
         doubles,
         text,
     }))
+}
+
+/// Fits the affine transformation of tie points (column, row, and x, y on the map) by least squares; `None` if they lie on a line.
+fn fitted(ties: &[[f64; 6]]) -> Option<[f64; 6]> {
+    let (mut normal, mut right) = (Matrix3::zeros(), Matrix3x2::zeros());
+    // From the first one, whose place may have many digits.
+    let [i0, j0, _, x0, y0, _] = *ties.first()?;
+    for [i, j, _, x, y, _] in ties {
+        let row = Vector3::new(i - i0, j - j0, 1.0);
+        normal += row * row.transpose();
+        right += row * RowVector2::new(x - x0, y - y0);
+    }
+    let [[a, b, x], [d, e, y]] = (normal.try_inverse()? * right).data.0;
+    Some([
+        a,
+        b,
+        x0 + x - a * i0 - b * j0,
+        d,
+        e,
+        y0 + y - d * i0 - e * j0,
+    ])
 }
 
 /// Width and height of the pixels of an image on a map, and their unit.
@@ -244,16 +284,15 @@ fn resolution_sides(file: &mut File) -> Result<Option<([f64; 2], f64)>> {
     if let Some(unit) = described(file).as_deref().and_then(imagej_unit) {
         return Ok(Some(([unit / x, unit / y], unit)));
     }
-    let per = match unsigned(file, Tag::ResolutionUnit)?.unwrap_or(PER_INCH) {
-        // Without a unit, resolutions state the proportions of a pixel only.
-        RESOLUTION_UNIT_NONE => return Ok(None),
-        PER_INCH => 25.4,
-        PER_CENTIMETRE => 10.0,
-        other => {
-            return Err(damaged(format!(
-                "its unit of resolution is {other}, where 1 to 3 are known"
-            )));
-        }
+    let unit = unsigned(file, Tag::ResolutionUnit)?.unwrap_or(2);
+    if unit == RESOLUTION_UNIT_NONE {
+        // Then resolutions state the proportions of a pixel only.
+        return Ok(None);
+    }
+    let place = usize::from(unit).checked_sub(2);
+    let Some(per) = place.and_then(|place| RESOLUTION_UNITS.get(place)) else {
+        let reason = format!("its unit of resolution is {unit}, where 1 to 5 are known");
+        return Err(damaged(reason));
     };
     Ok(Some(([per / x, per / y], 1.0)))
 }
@@ -351,6 +390,7 @@ fn no_data(file: &mut File) -> Result<Option<f64>> {
     let text = text.into_string().map_err(failed)?;
     let text = text.trim_matches(['\0', ' ']);
     let value: f64 = text
+        .replace(',', ".")
         .parse()
         .map_err(|_| damaged(format!("its tag GDAL_NODATA is `{text}`, no number")))?;
     Ok(Some(value))

@@ -89,17 +89,13 @@ fn each_value(
 fn vertex(element: &Element, values: &mut Values, parts: &mut MeshBuilder) -> Result<()> {
     let (mut position, mut color, mut uv) = ([f64::NAN; 3], [f32::NAN; 3], [f32::NAN; 2]);
     each_value(element, values, |name, value, white| {
-        let share = (value / white) as f32;
         match name {
             "x" => position[0] = value,
             "y" => position[1] = value,
             "z" => position[2] = value,
-            "red" | "r" | "diffuse_red" => color[0] = share,
-            "green" | "g" | "diffuse_green" => color[1] = share,
-            "blue" | "b" | "diffuse_blue" => color[2] = share,
             "s" | "u" | "texture_u" => uv[0] = value as f32,
             "t" | "v" | "texture_v" => uv[1] = value as f32,
-            _ => {}
+            _ => add_channel(&mut color, name, value, white),
         }
         Ok(())
     })?;
@@ -111,6 +107,17 @@ fn vertex(element: &Element, values: &mut Values, parts: &mut MeshBuilder) -> Re
         parts.uvs.push(uv);
     }
     Ok(())
+}
+
+/// Sets a channel of a colour by the property that has it, whose value for white is given.
+fn add_channel(color: &mut [f32; 3], name: &str, value: f64, white: f64) {
+    let channel = match name {
+        "red" | "r" | "diffuse_red" => 0,
+        "green" | "g" | "diffuse_green" => 1,
+        "blue" | "b" | "diffuse_blue" => 2,
+        _ => return,
+    };
+    color[channel] = (value / white) as f32;
 }
 
 /// Reads the faces and triangle strips of a file, which may have texture coordinates at their corners.
@@ -129,12 +136,13 @@ impl Faces {
         parts: &mut MeshBuilder,
     ) -> Result<()> {
         let (mut indices, mut uvs, mut texture) = (Vec::new(), Vec::new(), 0.0);
-        each_value(element, values, |name, value, _| {
+        let mut color = [f32::NAN; 3];
+        each_value(element, values, |name, value, white| {
             match name {
                 "vertex_indices" | "vertex_index" => indices.push(value),
                 "texcoord" => uvs.push(value as f32),
                 "texnumber" => texture = value,
-                _ => {}
+                _ => add_channel(&mut color, name, value, white),
             }
             Ok(())
         })?;
@@ -152,8 +160,14 @@ impl Faces {
                 .iter()
                 .map(|i| whole(*i))
                 .collect::<Result<Vec<_>>>()?;
-            if element.properties.iter().any(|p| p.name == "texcoord") {
-                self.split(&mut face, &uvs, parts)?;
+            let has_uvs = element.properties.iter().any(|p| p.name == "texcoord");
+            // Where vertices have colours or texture coordinates, these count.
+            let is_plain =
+                self.corners.is_some() || parts.colors.is_empty() && parts.uvs.is_empty();
+            let color = (is_plain && !color.iter().any(|c| c.is_nan())).then_some(color);
+            if has_uvs || color.is_some() {
+                let corners = (self.corners).get_or_insert_with(|| Corners::taken_from(parts));
+                corners.split(&mut face, &uvs, CornerMaterial::of_face(color), parts)?;
             }
             parts.polygon(&face)?;
         }
@@ -162,27 +176,6 @@ impl Faces {
             .then(|| self.pictures.get(texture as usize))
             .flatten();
         parts.texture(picture.copied().unwrap_or(NO_TEXTURE));
-        Ok(())
-    }
-
-    /// Replaces the corners of a face by vertices that have the corners' texture coordinates.
-    fn split(&mut self, face: &mut [u32], uvs: &[f32], parts: &mut MeshBuilder) -> Result<()> {
-        let corners = self.corners.get_or_insert_with(|| {
-            parts.uvs.clear();
-            Corners {
-                positions: std::mem::take(&mut parts.positions),
-                colors: parts.colors.drain(..).map(Some).collect(),
-                ..Corners::default()
-            }
-        });
-        for (k, index) in face.iter_mut().enumerate() {
-            if *index as usize >= corners.positions.len() {
-                let reason = format!("a face names vertex {index} of {}", corners.positions.len());
-                return Err(damaged(reason));
-            }
-            let uv = uvs.get(2 * k..2 * k + 2).map(|uv| [uv[0], uv[1]]);
-            *index = corners.vertex(*index as usize, uv, CornerMaterial::default(), parts)?;
-        }
         Ok(())
     }
 }

@@ -107,20 +107,13 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
     if (!opened || !session.input) return false;
     openAgain = (noData) => openFile(chosen, { ...reading, noData }, photo, hasCamera);
     const { depths, stored } = session.input;
-    setCoarsening(stored?.coarsening ?? 1);
-    if (!depths) {
-      void session.run();
-      return true;
-    }
-    camera.show();
-    if (hasCamera) return true;
-    if (depths !== 'certain') {
-      void session.run();
-      return true;
-    }
-    if (!(await camera.backProject(true))) return true;
+    const { coarsening = 1 } = stored ?? {};
+    if (coarsening !== session.settings.coarsening) adopt({ ...session.settings, coarsening });
+    const areDepths = depths === 'certain';
+    if (depths) camera.show();
+    if ((depths && hasCamera) || (areDepths && !(await camera.backProject(true)))) return true;
     void session.run();
-    choose(hasColours(session.input) ? 'photo' : 'shaded');
+    if (areDepths) choose(hasColours(session.input) ? 'photo' : 'shaded');
     return true;
   };
 
@@ -129,12 +122,6 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
     const opened = await mesh.openFile(file, referencedFiles, format);
     if (opened) solveMesh();
     return opened;
-  };
-
-  /** @param {number} step lattice spacing in pixels */
-  const setCoarsening = (step) => {
-    if (step === session.settings.coarsening) return;
-    adopt({ ...session.settings, coarsening: step });
   };
 
   /** Opens files that belong together, or one file. @param {readonly File[]} files */

@@ -12,7 +12,8 @@ use crate::lattice::per_cell::PerCell;
 /// Minimum penalty weight of a stencil on a crease, relative to a smooth stencil's: keeps the problem well conditioned.
 const MIN_CREASE_WEIGHT: f64 = 0.05;
 
-/// Penalty weight of a stencil on a crease between regions that are known to be smooth, relative to a smooth stencil's.
+/// Penalty weight of a stencil on a crease between regions that are known to be smooth, relative to a smooth stencil's
+/// (`benches/whole.md`).
 const KNOWN_CREASE_WEIGHT: f64 = 0.01;
 
 /// Minimum relative change at which a stencil's penalty weight counts as changed.

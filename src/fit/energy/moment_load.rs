@@ -15,11 +15,11 @@ use crate::math::fork;
 use crate::math::sym2::Sym2;
 
 /// Distance from the border beyond which bending moments count as undisturbed by it, in lengths `(2/δλ)^¼` over which a
-/// free border straightens.
+/// free border straightens (`benches/whole.md`).
 const BORDER_REACH_LENGTHS: f64 = 2.3;
 
 /// Maximum moment of a load, as a share of the largest moment that a stencil can bear, its penalty weight `ω`: a larger
-/// one would fold the sheet along its border without limit.
+/// one would fold the sheet along its border without limit (`benches/whole.md`).
 const MAX_LOAD_MOMENT: f64 = 0.6;
 
 /// Number of vertices whose moments are smoothed by one thread at a time.
@@ -69,10 +69,17 @@ impl Rings {
         })
     }
 
+    /// Returns whether a vertex is in one of the rings.
+    pub(crate) fn contain(&self, vertex: usize) -> bool {
+        // An operator may have room for more vertices than there are.
+        self.depth
+            .get(vertex)
+            .is_some_and(|depth| *depth != u32::MAX)
+    }
+
     /// Returns whether a vertex is in one of the outermost rings, up to the ring of this number.
     pub(crate) fn are_within(&self, vertex: usize, rings: u32) -> bool {
-        // An operator may have room for more vertices than there are.
-        self.depth.get(vertex).is_some_and(|depth| *depth <= rings)
+        self.contain(vertex) && self.depth[vertex] <= rings
     }
 
     /// Smooths the values beyond `reach` rings until hardly any noise is left, and continues them to the border along

@@ -5,11 +5,11 @@ use super::input::MeshInput;
 use super::orientation::unfold;
 
 /// Number of smoothing steps of the input mesh that determine where the vertices of the base (the smoothed mesh) are
-/// across their normals.
+/// across their normals (`benches/whole.md`).
 const BASE_PLACE_STEPS: usize = 3;
 
 /// Number of smoothing steps of the input mesh that determine where the vertices of the base (the smoothed mesh) are
-/// along their normals; includes [`BASE_PLACE_STEPS`].
+/// along their normals; includes [`BASE_PLACE_STEPS`] (`benches/whole.md`).
 const BASE_SURFACE_STEPS: usize = 10;
 
 /// Smooths the input mesh, and returns the positions and frames of its vertices, about which the energy is first

@@ -11,10 +11,6 @@ use crate::fit::energy::moment_load::Rings;
 use crate::math::index::NO_INDEX;
 use crate::math::sym2::Sym2;
 
-/// Number of rings of vertices that the load along a border or crease acts on: the ring next to it, and two further
-/// ones that its stencils reach. Further inside equal moments cancel.
-const LOAD_REACH_RINGS: u32 = 3;
-
 /// Loads the border, and the creases whose stencils are `known`, with the bending `moments` of the stencils inside;
 /// returns whether there are any. Moments smaller than the options' flatness are ignored: they are noise on flat faces.
 ///
@@ -66,7 +62,7 @@ pub(super) fn load_border(
             Some(way) => directions[way].0 as usize,
             None => unknown,
         };
-        rings.are_within(vertex, LOAD_REACH_RINGS)
+        rings.contain(vertex)
     })?;
     Ok(true)
 }

@@ -7,12 +7,9 @@ use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
 use crate::math::least_squares::LeastSquares;
 
-/// Number of vertices on either side of a vertex, along its border or crease, that the fairing quadratic is fitted to.
+/// Number of vertices on either side of a vertex, along its border or crease, that the fairing quadratic is fitted to
+/// (`benches/whole.md`).
 const FAIRING_HALF_WINDOW: usize = 4;
-
-/// Maximum ratio of a vertex's variance after fairing to the variance before; where fairing reduces noise less, it does
-/// not move the vertex.
-const MAX_VARIANCE_RATIO: f64 = 0.95;
 
 /// Finds the borders and creases of a surface as curves: for each vertex the vertices before and after it on its curve,
 /// and `None` where a curve ends and at vertices of no curve.
@@ -78,9 +75,6 @@ fn fairing_step(
         }
     }
     let inverse = quadratic.factor()?.inverse();
-    if inverse[(0, 0)] > MAX_VARIANCE_RATIO {
-        return None;
-    }
     let step = (inverse.row(0) * quadratic.right).transpose();
     step.iter().all(|v| v.is_finite()).then_some(step)
 }

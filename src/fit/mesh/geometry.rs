@@ -7,7 +7,7 @@ use super::topology::Topology;
 pub(crate) type Point = Vector3<f64>;
 
 /// Share of the way to the mean of its neighbours that a vertex moves in one smoothing step; at 1, smoothing oscillates
-/// on some meshes.
+/// on some meshes (`benches/whole.md`).
 const SMOOTHING_STEP_SHARE: f64 = 0.7;
 
 /// Minimum squared length of a hint's component across a frame's normal; a shorter one gives no tangent direction.

@@ -18,17 +18,6 @@ pub(super) struct MeshInput {
 }
 
 impl MeshInput {
-    /// The position within a vertex's reach that is nearest to `x`.
-    pub(super) fn within_reach(&self, vertex: usize, x: Point) -> Point {
-        let (start, reach) = (self.noisy[vertex], self.reach[vertex]);
-        let offset = x - start;
-        let length = offset.norm();
-        match length > reach {
-            true => start + offset * (reach / length),
-            false => x,
-        }
-    }
-
     /// The position within a vertex's reach that is nearest to `x` at the same height along the unit vector `up`, or as
     /// near to that height as the reach allows.
     pub(super) fn within_reach_across(&self, vertex: usize, x: Point, up: &Point) -> Point {

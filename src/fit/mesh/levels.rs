@@ -24,7 +24,7 @@ use crate::fit::report::{Seconds, StopReason};
 use crate::math::index::NO_INDEX;
 use crate::math::sym2::Sym2;
 
-/// Minimum number of vertices of a level that is made coarser.
+/// Minimum number of vertices of a level that is made coarser (`benches/whole.md`).
 const MIN_COARSENED_VERTICES: usize = 4000;
 
 /// Minimum ratio of the vertices of a level to those of the next coarser one at which that saves time.
@@ -306,7 +306,10 @@ impl MeshLevel {
         let count = creases.vertices + problem.free_creases(&known);
         set_rho_shares(problem);
         let moments: Vec<Sym2> = (self.start.iter())
-            .map(|[dual, hessian]| bearing(*dual, *hessian).scale(options.bend_share(*dual)))
+            .map(|[dual, hessian]| match options.is_bend(*dual) {
+                true => bearing(*dual, *hessian),
+                false => Sym2::default(),
+            })
             .collect();
         self.loaded = load_border(linear, &moments, options, &known)?;
         Ok(count)

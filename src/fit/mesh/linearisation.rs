@@ -20,12 +20,12 @@ use crate::math::index::NO_INDEX;
 
 pub(super) type Problem = problem::Problem<SparseOperator>;
 
-/// Minimum area of a vertex in the energy, as a share of the mean; smaller areas are raised to it.
+/// Minimum area of a vertex in the energy, as a share of the mean; smaller areas are raised to it (`benches/whole.md`).
 const MIN_AREA_SHARE: f64 = 0.1;
 
 /// Maximum noise amplification of a quadratic fitted to the first ring of a vertex, relative to a hexagonal ring's;
 /// above it the second ring is added. Including the second ring on all irregular meshes reduces the angle between
-/// normals of surface and truth by a third.
+/// normals of surface and truth by a third (`benches/whole.md`).
 const MAX_RING_AMPLIFICATION: f64 = 1.05;
 
 /// Minimum number of first-ring vertices at which a quadratic may be fitted to them without the second ring.
@@ -245,7 +245,7 @@ impl Linearisation {
 }
 
 /// Maximum slope of a local quadratic fit against its frame's tangent plane. Above it the frame is rotated into the
-/// fit's tangent plane, because second derivatives over a slanting plane are not the second fundamental form.
+/// fit's tangent plane, because second derivatives over a slanting plane are not the second fundamental form (`benches/whole.md`).
 const MAX_FRAME_SLOPE: f64 = 0.02;
 
 /// Fits a quadratic to the surface about a vertex, over its tangent plane. Returns the quadratic, the vertices that it

@@ -7,11 +7,9 @@
 
 mod adjacency;
 mod base;
-mod border_extrapolation;
 mod bounding_sphere;
 mod clusters;
 mod crease_directions;
-mod crease_vertices;
 mod edge_load;
 mod fairing;
 mod finishing;

@@ -6,9 +6,6 @@ use crate::fit::options::{
 };
 use crate::math::sym2::Sym2;
 
-/// Excess of a dual's size over the flatness at which the bend there counts in full towards the border's moments.
-const CLEAR_BEND_EXCESS: f64 = 0.1;
-
 /// Options of [`fit_mesh`](super::fit_mesh), with the names that they have in [`Options`]. The energy is
 /// [`Energy::Huber`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -98,10 +95,9 @@ impl MeshOptions {
         self.crease_passes.unwrap_or(DEFAULT_CREASE_PASSES)
     }
 
-    /// Returns the share, from 0 to 1, of a stencil's dual that counts as the moment of a bend: 0 where the surface is
-    /// nearly flat, because the dual's direction is arbitrary there.
-    pub(super) fn bend_share(&self, dual: Sym2) -> f64 {
-        ((dual.spectral_norm() - self.flatness) / CLEAR_BEND_EXCESS).clamp(0.0, 1.0)
+    /// Whether a stencil's dual is the moment of a bend: the direction of a smaller one is arbitrary.
+    pub(super) fn is_bend(&self, dual: Sym2) -> bool {
+        dual.spectral_norm() > self.flatness
     }
 
     /// Checks that every option is within its range.

@@ -3,10 +3,10 @@
 use super::geometry::{Point, faces_away, twice_area};
 use super::input::MeshInput;
 
-/// Maximum number of steps in which folded triangles are laid flat.
+/// Maximum number of steps in which folded triangles are laid flat (`benches/whole.md`).
 const MAX_UNFOLDING_STEPS: usize = 40;
 
-/// Maximum number of rounds over the triangles that are turned over.
+/// Maximum number of rounds over the triangles that are turned over (`benches/whole.md`).
 const MAX_TURNING_ROUNDS: usize = 200;
 
 /// Height of a triangle that has been turned back, as a share of its longest side: flatter than any triangle that

@@ -18,7 +18,7 @@ const MIN_PIVOT_SHARE: f64 = 1e-8;
 /// Number of neighbours for which memory is reserved: two rings of a hexagonal mesh and some more.
 const SAMPLE_CAPACITY: usize = 24;
 
-/// Weight of a second-ring vertex in a quadratic fit, relative to a first-ring vertex.
+/// Weight of a second-ring vertex in a quadratic fit, relative to a first-ring vertex (`benches/whole.md`).
 pub(super) const SECOND_RING_FIT_WEIGHT: f64 = 0.03;
 
 /// A neighbour of the vertex that a quadratic is fitted at: its offset from the vertex, and its weight.
@@ -139,18 +139,6 @@ impl Quadratic {
     pub(super) fn slope(&self) -> [f64; 2] {
         let [.., x, y] = self.coefficients;
         [x, y]
-    }
-
-    /// Returns the quadratic's height above the tangent plane at a point of that plane.
-    pub(super) fn height(&self, place: [f64; 2]) -> f64 {
-        self.scale * inner(&self.coefficients, &terms(place.map(|x| x / self.scale)))
-    }
-
-    /// Returns the quadratic's first derivatives at a point of the tangent plane.
-    pub(super) fn gradient(&self, place: [f64; 2]) -> [f64; 2] {
-        let [x, y] = place.map(|x| x / self.scale);
-        let [xx, xy, yy, a, b] = self.coefficients;
-        [xx * x + xy * y + a, xy * x + yy * y + b]
     }
 
     /// Returns the change of the second derivatives, to first order, when the `k`-th neighbour moves by `v` relative to

@@ -6,25 +6,18 @@ use super::geometry::{faces_away, normals};
 use super::input::MeshInput;
 
 /// Maximum distance of a vertex from where it was given, in standard deviations of the noise; noise in space exceeds it
-/// at one vertex in 65,000.
+/// at one vertex in 65,000 (`benches/whole.md`).
 const MAX_MOVE_NOISE_RATIO: f64 = 5.0;
-
-/// Maximum distance of a vertex from where it was given if there are too few vertices to estimate the noise, in
-/// spacings.
-const MAX_MOVE_SPACINGS: f64 = 1.0;
 
 /// Minimum confidence that counts in the noise of a single vertex: 30 times the usual noise.
 const MIN_NOISE_CONFIDENCE: f64 = 1e-3;
-
-/// Number of neighbours of a vertex that has one triangle only.
-const TIP_NEIGHBOURS: usize = 2;
 
 /// Reach of every vertex for noise of the standard deviation `sigma`. A vertex of one triangle that is folded over onto
 /// its neighbours may be turned back, as far as its edges are long.
 pub(super) fn reach(given: &MeshInput, sigma: Option<f64>, spacing: f64) -> Vec<f64> {
     let usual = match sigma {
         Some(sigma) => MAX_MOVE_NOISE_RATIO * sigma,
-        None => MAX_MOVE_SPACINGS * spacing,
+        None => spacing,
     };
     let (topology, x) = (&given.topology, &given.noisy);
     let confidence = |vertex: usize| given.confidence.get(vertex).copied().unwrap_or(1.0);
@@ -35,7 +28,7 @@ pub(super) fn reach(given: &MeshInput, sigma: Option<f64>, spacing: f64) -> Vec<
     for triangle in &topology.triangles {
         let corners = triangle.map(|i| i as usize);
         for tip in corners {
-            if topology.around(tip).len() == TIP_NEIGHBOURS && faces_away(x, &up, triangle) {
+            if topology.around(tip).len() == 2 && faces_away(x, &up, triangle) {
                 let edges = corners.iter().map(|other| (x[*other] - x[tip]).norm());
                 reach[tip] = edges.fold(reach[tip], f64::max);
             }

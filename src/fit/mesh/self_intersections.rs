@@ -10,14 +10,10 @@ use super::orientation::mean_normals;
 use super::topology::Topology;
 use super::vertex_fans::VertexFans;
 
-/// Minimum cosine of the angle between the normals of a triangle and of its vertex at which the triangles around that
-/// vertex are assumed not to cross others.
-const MIN_NORMAL_COSINE: f64 = 0.5;
-
-/// Number of rings around a triangle whose triangles are tested for crossing it.
+/// Number of rings around a triangle whose triangles are tested for crossing it (`benches/whole.md`).
 const CROSSING_SEARCH_RINGS: usize = 3;
 
-/// Maximum number of rounds in which crossing triangles are separated.
+/// Maximum number of rounds in which crossing triangles are separated (`benches/whole.md`).
 const MAX_MENDING_ROUNDS: usize = 60;
 
 /// Maximum number of visits to vertices in the search for crossing triangles, per vertex of the mesh: bounds the time
@@ -28,7 +24,7 @@ const MAX_VISITS_PER_VERTEX: usize = 4;
 /// per vertex, so that small meshes are mended completely.
 const EXTRA_VISITS: usize = 100_000;
 
-/// Number of rounds of separating triangles after which the neighbours of moved vertices are moved, too.
+/// Number of rounds of separating triangles after which the neighbours of moved vertices are moved, too (`benches/whole.md`).
 const WIDENING_ROUNDS: usize = 10;
 
 /// Separates crossing triangles and turns folded ones back: moves their vertices along the surface towards the mean of
@@ -128,10 +124,8 @@ fn entangled_triangles(
         let own = vertex_fans.around(*vertex as usize);
         let sides = own.iter().map(|t| twice_area(x, &triangles[*t as usize]));
         let up = sides.clone().sum::<Point>();
-        if sides
-            .clone()
-            .any(|side| side.dot(&up) <= MIN_NORMAL_COSINE * side.norm() * up.norm())
-        {
+        // Where no triangle faces away, none crosses another near it.
+        if sides.clone().any(|side| side.dot(&up) <= 0.0) {
             suspects.extend(own);
         }
     }

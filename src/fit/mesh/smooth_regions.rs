@@ -7,10 +7,10 @@ use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::scene::facets::Facets;
 
-/// Minimum angle between the two sides of a crease, in radians, at which their intersection is well determined.
-pub(super) const MIN_FOLD_ANGLE_RADIANS: f64 = 0.2;
+/// Minimum angle between the two sides of a crease, in radians (`benches/whole.md`).
+const MIN_FOLD_ANGLE_RADIANS: f64 = 0.2;
 
-/// Minimum area of a smooth region, as a share of the area of the mesh.
+/// Minimum area of a smooth region, as a share of the area of the mesh (`benches/whole.md`).
 const MIN_SIDE_AREA_SHARE: f64 = 0.003;
 
 /// Smooth regions of a mesh, and the regions that meet at each vertex.

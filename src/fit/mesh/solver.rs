@@ -3,9 +3,8 @@
 use web_time::Instant;
 
 use super::base::first_base;
-use super::border_extrapolation::extrapolate_border;
 use super::bounding_sphere::BoundingSphere;
-use super::finishing::{sharpen_creases, untangle};
+use super::finishing::{fair_creases, untangle};
 use super::geometry::{Frame, Point, areas, normals};
 use super::input::MeshInput;
 use super::known::MeshKnown;
@@ -31,15 +30,12 @@ use crate::fit::report::{Progress, Seconds, StopReason};
 use crate::scene::mesh::Mesh;
 
 /// Product of λ, the noise's standard deviation and the spacing of vertices, in normalised coordinates, that determines
-/// λ where none is given.
+/// λ where none is given (`benches/whole.md`).
 const LAMBDA_NOISE_PRODUCT: f64 = 6.4;
 
-/// Relative duality gap at which the first of several solves stops, which only gives the next one a base and the
-/// creases.
-const FIRST_SOLVE_GAP: f64 = 0.03;
-
-/// Relative duality gap at which the solves between the first and the last one stop: the next one starts from their dual.
-const MIDDLE_SOLVE_GAP: f64 = 0.02;
+/// Relative duality gap at which all solves but the last one stop, which give the next one a base and the creases
+/// (`benches/whole.md`).
+const EARLY_SOLVE_GAP: f64 = 0.02;
 
 /// Minimum standard deviation of noise that λ is chosen by, in spacings of vertices; smaller noise counts as none.
 const MIN_NOISE_SPACINGS: f64 = 1e-4;
@@ -104,10 +100,9 @@ pub struct MeshSolver {
 /// along the normal, `w` its share of the area, `II` the second fundamental form, and `φ` the Huber penalty of
 /// [`Energy::Huber`](crate::Energy::Huber). The energy is linearised about a smoothed base and solved as on a
 /// lattice, and once more about the result, where vertices on creases also move across their rays. Unless
-/// `crease_passes` is 0, they are then moved to where the continuations of both sides meet, and borders and creases
-/// become smooth curves. Last, self-intersections and folded triangles are removed by moving their vertices towards
-/// the mean of their neighbours. With [`Lambda::Auto`] a mesh without noise ([`Mesh::is_exact`]) is
-/// left as it is.
+/// `crease_passes` is 0, borders and creases then become smooth curves. Last, self-intersections and folded triangles
+/// are removed by moving their vertices towards the mean of their neighbours. With [`Lambda::Auto`] a mesh without
+/// noise ([`Mesh::is_exact`]) is left as it is.
 ///
 /// # Errors
 /// [`Error::Topology`](crate::Error::Topology) if the mesh is no surface and cannot safely be made one, and
@@ -276,7 +271,6 @@ impl MeshSolver {
         let last = self.passes.len() >= self.options.crease_passes_or_default();
         let mut next = linear.moved(&admm.incumbent.z);
         self.given.keep_within_reach(&mut next);
-        extrapolate_border(&self.given, &mut next, &linear.vertices.frames, None);
         let topology = &self.given.topology;
         let old: Vec<Point> = linear.vertices.frames.iter().map(|f| f.normal).collect();
         let up = normals(topology, &next, Some(&old));
@@ -305,7 +299,7 @@ impl MeshSolver {
         if done && self.options.crease_passes_or_default() > 0 {
             let sides = SmoothRegions::new(&given.topology, surface)?;
             let (before, frames) = (self.smooth.as_deref(), &linear.vertices.frames);
-            sharpen_creases(given, &sides, surface, before, frames, self.sigma);
+            fair_creases(given, &sides, surface, before, frames, self.sigma);
             // Normals beside creases have changed.
             let up = normals(&given.topology, surface, Some(&old));
             unfold(given, surface, &up);
@@ -434,11 +428,7 @@ fn mean_spacing(topology: &Topology, x: &[Point]) -> f64 {
 fn parameters(options: &MeshOptions, solved: usize) -> AdmmParameters {
     let mut common = options.common();
     if solved < options.crease_passes_or_default() {
-        let least = match solved {
-            0 => FIRST_SOLVE_GAP,
-            _ => MIDDLE_SOLVE_GAP,
-        };
-        common = common.gap(options.gap.max(least));
+        common = common.gap(options.gap.max(EARLY_SOLVE_GAP));
     }
     AdmmParameters::new(&common).for_mesh()
 }

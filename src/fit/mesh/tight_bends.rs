@@ -9,11 +9,8 @@ use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
 
 /// Number of rings around a crease within which residuals are compared and the surface is replaced: a fold differs from
-/// a bend on both sides of its line.
+/// a bend on both sides of its line (`benches/whole.md`).
 const COMPARISON_RINGS: usize = 2;
-
-/// Minimum number of vertices on a crease from which residuals tell a bend.
-const MIN_COMPARED_VERTICES: usize = 8;
 
 /// Minimum ratio of the squared residuals without a crease to those with it at which the crease is kept: with noise it is
 /// above 2 at folds, and below 1.2 at bends over two edges or more (`benches/irregular.md`).
@@ -33,7 +30,7 @@ pub(super) fn restore_bends(
     let mut seen = vec![false; topology.len()];
     for start in 0..topology.len() {
         let crease = connected_crease(topology, sides, start, &mut seen);
-        if crease.len() < MIN_COMPARED_VERTICES {
+        if crease.is_empty() {
             continue;
         }
         let near = topology.within_rings(crease, COMPARISON_RINGS);

@@ -43,6 +43,13 @@ function correlation(a, b) {
   return product(a, ma, b, mb) / Math.sqrt(product(a, ma, a, ma) * product(b, mb, b, mb));
 }
 
+pageTest('a card that is seen from above is seen so when an address opens it', async (page) => {
+  const first = await brightness(page, '#space-canvas');
+  await page.getByRole('button', { name: 'From above' }).click();
+  const alike = correlation(first, await brightness(page, '#space-canvas'));
+  assert.ok(alike > 0.9, `${alike}`);
+}, { start: '#fig-8', drawn: true });
+
 pageTest('in space the surface is turned and divided', async (page) => {
   const divider = page.getByRole('slider', { name: 'Divider between input and result' });
 

@@ -63,7 +63,7 @@ export const CARDS = [
   {
     id: 'fig-8', figure: 'Fig. 8', title: 'A bust, from one sheet to every hair',
     words: 'A small λ makes a bust from a few large sheets. A large one keeps every detail.',
-    look: 'Click one of the five pictures below to take its λ.',
+    look: 'Click one of the five pictures to take its λ.',
     input: (size) => sampledInput('bust', bust, size), size: 240, settings: { ...PAPER_SETTINGS, lambda: 3e5 }, view: 'shaded', opens: 'strip', fromAbove: true,
   },
   {

@@ -78,6 +78,8 @@ export function stagePanel(first) {
   const divider = dividerOver('divider', ['input', 'result'], (share) => view?.divide(share));
   const chosen = () => radios.find((radio) => radio.checked)?.value ?? 'shaded';
 
+  /** Whether the scene was asked for from above before it was there. */
+  let startsFromAbove = false;
   /** Creates the scene with the first input, and shows in it what there is by then. */
   const createView = async () => {
     isCreated = true;
@@ -89,8 +91,10 @@ export function stagePanel(first) {
   const showFirst = () => {
     view?.setLook(subject.look());
     renew();
-    view?.look();
-    if (turnsAtFirst) view?.turnOnce();
+    if (startsFromAbove) view?.lookDown();
+    else view?.look();
+    if (turnsAtFirst && !startsFromAbove) view?.turnOnce();
+    startsFromAbove = false;
   };
   /** Shows the surfaces, or the picture in their place, and what can be done with them. */
   const arrange = () => {
@@ -222,7 +226,7 @@ export function stagePanel(first) {
   flat.canvas.addEventListener('pointermove', (event) => (reading.textContent = flat.read(event)));
   for (const one of [canvas, flat.canvas]) one.addEventListener('pointerleave', () => (reading.textContent = ''));
 
-  element('from-above', HTMLButtonElement).addEventListener('click', () => view?.lookDown());
+  element('from-above', HTMLButtonElement).addEventListener('click', () => (view ? view.lookDown() : (startsFromAbove = true)));
   element('at-an-angle', HTMLButtonElement).addEventListener('click', () => view?.look());
   save.addEventListener('click', async () => {
     const isFlat = shown.flat !== undefined;

@@ -39,7 +39,7 @@ impl Unit {
 }
 
 /// Lengths of units in millimetres, with the names that programs give them.
-#[cfg(any(feature = "formats", feature = "meshes"))]
+#[cfg(any(feature = "images", feature = "meshes"))]
 #[rustfmt::skip]
 const UNIT_LENGTHS: [(f64, &[&str]); 9] = [
     (1e-6, &["nm"]),
@@ -54,7 +54,7 @@ const UNIT_LENGTHS: [(f64, &[&str]); 9] = [
 ];
 
 /// Returns the length in millimetres of a unit of a given name, in letters of any case.
-#[cfg(any(feature = "formats", feature = "meshes"))]
+#[cfg(any(feature = "images", feature = "meshes"))]
 pub(super) fn millimetres_in(name: &str) -> Option<f64> {
     let name = name.to_ascii_lowercase();
     let mut units = UNIT_LENGTHS.into_iter();

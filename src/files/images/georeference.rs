@@ -6,9 +6,6 @@ const RASTER_TYPE_KEY: u16 = 1025;
 /// Value of the key `GTRasterTypeGeoKey` of the GeoTIFF format for the middles of pixels.
 const RASTER_TYPE_POINT: u16 = 2;
 
-/// Number of the TIFF tag `GeoDoubleParams`, which holds the values of some keys of the GeoTIFF format.
-const DOUBLES_TAG: u16 = 34_736;
-
 /// Where the pixels of an image lie on a map. It is read from a GeoTIFF and written to one unchanged, but for the rows
 /// or columns that were reversed or resampled.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,26 +24,9 @@ pub struct Georeference {
 }
 
 impl Georeference {
-    /// Creates the georeference of pixels whose place on a map is given, in the coordinate system that keys of the GeoTIFF format
-    /// name.
-    pub(super) fn new(transformation: [f64; 6], keys: &[u16]) -> Self {
-        Georeference {
-            transformation,
-            keys: keys.into(),
-            doubles: Vec::new(),
-            text: String::new(),
-        }
-    }
-
     /// Whether a coordinate system is named: without one nothing is known of the unit.
     pub(super) fn has_system(&self) -> bool {
         !self.keys.is_empty()
-    }
-
-    /// Whether the image lies elsewhere than at the origin, upright.
-    pub(super) fn has_place(&self) -> bool {
-        let [_, b, c, d, _, f] = self.transformation;
-        [b, c, d, f] != [0.0; 4]
     }
 
     /// Value of a GeoTIFF key that is stored in the directory itself.
@@ -55,13 +35,6 @@ impl Georeference {
         (self.keys.chunks_exact(4).skip(1))
             .find(|entry| entry[0] == wanted && entry[1] == 0)
             .map(|entry| entry[3])
-    }
-
-    /// Value of a GeoTIFF key that is stored among the numbers of the tag `GeoDoubleParams`.
-    pub(super) fn number(&self, wanted: u16) -> Option<f64> {
-        let mut entries = self.keys.chunks_exact(4).skip(1);
-        let entry = entries.find(|entry| entry[..2] == [wanted, DOUBLES_TAG])?;
-        self.doubles.get(usize::from(entry[3])).copied()
     }
 
     /// Whether the transformation is about the middles of pixels, not their upper left corners.

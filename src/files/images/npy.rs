@@ -8,7 +8,6 @@ use super::raw_pixels::raw_pixels;
 use crate::error::{Error, Result, check_shape};
 use crate::files::buffer::Buffer;
 use crate::files::failure::{damaged, not_read};
-use crate::files::image_format::Format;
 use crate::files::number_type::NumberType;
 
 /// Maximum length of the header of an NPY file, in bytes; NumPy has the same limit.
@@ -55,6 +54,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
 /// Reads shape and number type of an NPY file's array; the file may end after the header.
 #[cfg(feature = "images")]
 pub(super) fn describe(bytes: &[u8]) -> Result<(Vec<u64>, String)> {
+    use crate::files::image_format::Format;
     if Format::detect(bytes) != Some(Format::Npy) {
         return Err(damaged("it does not begin like an NPY file"));
     }

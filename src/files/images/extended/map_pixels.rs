@@ -21,6 +21,9 @@ const LINEAR_UNIT_KEY: u16 = 3076;
 /// Number of the key `ProjLinearUnitSizeGeoKey` of the GeoTIFF format, the length of that unit in metres if it has no number.
 const LINEAR_UNIT_SIZE_KEY: u16 = 3077;
 
+/// Number of the TIFF tag `GeoDoubleParams`, which holds the values of some keys of the GeoTIFF format.
+const DOUBLES_TAG: u16 = 34_736;
+
 /// Number of the key `VerticalUnitsGeoKey` of the GeoTIFF format, the unit of heights.
 const VERTICAL_UNIT_KEY: u16 = 4099;
 
@@ -50,6 +53,30 @@ const ELLIPSOID_ECCENTRICITY_SQUARED: f64 = 0.006_694_379_990_14;
 const WGS84_KEYS: [u16; 16] = [1, 1, 0, 3, 1024, 0, 1, 2, 1025, 0, 1, 2, 2048, 0, 1, 4326];
 
 impl Georeference {
+    /// Creates the georeference of pixels whose place on a map is given, in the coordinate system that keys of the GeoTIFF format
+    /// name.
+    pub(super) fn new(transformation: [f64; 6], keys: &[u16]) -> Self {
+        Georeference {
+            transformation,
+            keys: keys.into(),
+            doubles: Vec::new(),
+            text: String::new(),
+        }
+    }
+
+    /// Whether the image lies elsewhere than at the origin, upright.
+    pub(super) fn has_place(&self) -> bool {
+        let [_, b, c, d, _, f] = self.transformation;
+        [b, c, d, f] != [0.0; 4]
+    }
+
+    /// Value of a GeoTIFF key that is stored among the numbers of the tag `GeoDoubleParams`.
+    pub(super) fn number(&self, wanted: u16) -> Option<f64> {
+        let mut entries = self.keys.chunks_exact(4).skip(1);
+        let entry = entries.find(|entry| entry[..2] == [wanted, DOUBLES_TAG])?;
+        self.doubles.get(usize::from(entry[3])).copied()
+    }
+
     /// Creates the georeference of pixels of degrees of longitude and latitude, of which the first has its middle in the north-west.
     pub(super) fn of_degrees([west, north]: [f64; 2], [across, down]: [f64; 2]) -> Self {
         Georeference::new([across, 0.0, west, 0.0, -down, north], &WGS84_KEYS)

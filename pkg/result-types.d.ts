@@ -836,7 +836,7 @@ export interface MeshReport {
   vertices: number;
   /** Number of interior vertices of the solve: those with triangles all around, whose bends make up the energy. */
   interior: number;
-  /** Number of vertices on the border, which are extrapolated from the surface inside. */
+  /** Number of vertices on the border of the surface, which have no bend of their own. */
   border: number;
   /** Number of pinched vertices, at which parts of the surface touch in a point. */
   pinched: number;

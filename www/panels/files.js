@@ -46,7 +46,7 @@ export function filesPanel(session, mode, source, page) {
     } : undefined);
   };
 
-  /** What was shown before the heights that are being opened. @type {Mode} */
+  /** The mode of the page before the heights that are being opened. @type {Mode} */
   let earlier = 'home';
   /** @param {readonly File[]} files @param {boolean} [arePages] whether pictures were opened as pages */
   const open = async (files, arePages = mode.now === 'photo') => {

@@ -91,9 +91,12 @@ export function stagePanel(first) {
   const showFirst = () => {
     view?.setLook(subject.look());
     renew();
-    if (startsFromAbove) view?.lookDown();
-    else view?.look();
-    if (turnsAtFirst && !startsFromAbove) view?.turnOnce();
+    if (!view) return;
+    if (startsFromAbove) view.lookDown();
+    else {
+      view.look();
+      if (turnsAtFirst) view.turnOnce();
+    }
     startsFromAbove = false;
   };
   /** Shows the surfaces, or the picture in their place, and what can be done with them. */

@@ -81,7 +81,7 @@ pub struct MeshReport {
     pub vertices: usize,
     /// Number of interior vertices of the solve: those with triangles all around, whose bends make up the energy.
     pub interior: usize,
-    /// Number of vertices on the border, which are extrapolated from the surface inside.
+    /// Number of vertices on the border of the surface, which have no bend of their own.
     pub border: usize,
     /// Number of pinched vertices, at which parts of the surface touch in a point.
     pub pinched: usize,

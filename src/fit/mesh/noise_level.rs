@@ -7,6 +7,9 @@ use super::topology::Topology;
 use crate::math::least_squares::LeastSquares;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
+/// Minimum number of vertices from which the noise of a mesh is estimated.
+const MIN_NOISE_SAMPLES: usize = 50;
+
 /// Maximum number of vertices from which the noise of a mesh is estimated: more do not make the estimate better.
 const MAX_NOISE_SAMPLES: usize = 20_000;
 
@@ -48,6 +51,9 @@ pub(super) fn noise(
         if sample.is_finite() {
             samples.push(sample);
         }
+    }
+    if samples.len() < MIN_NOISE_SAMPLES {
+        return None;
     }
     Some(MAD_TO_SIGMA * median(&mut samples)?)
 }

@@ -10,6 +10,10 @@ use super::orientation::mean_normals;
 use super::topology::Topology;
 use super::vertex_fans::VertexFans;
 
+/// Minimum cosine of the angle between the normals of a triangle and of its vertex at which the triangles around that
+/// vertex are assumed not to cross others.
+const MIN_NORMAL_COSINE: f64 = 0.5;
+
 /// Number of rings around a triangle whose triangles are tested for crossing it (`benches/whole.md`).
 const CROSSING_SEARCH_RINGS: usize = 3;
 
@@ -124,8 +128,10 @@ fn entangled_triangles(
         let own = vertex_fans.around(*vertex as usize);
         let sides = own.iter().map(|t| twice_area(x, &triangles[*t as usize]));
         let up = sides.clone().sum::<Point>();
-        // Where no triangle faces away, none crosses another near it.
-        if sides.clone().any(|side| side.dot(&up) <= 0.0) {
+        if sides
+            .clone()
+            .any(|side| side.dot(&up) <= MIN_NORMAL_COSINE * side.norm() * up.norm())
+        {
             suspects.extend(own);
         }
     }

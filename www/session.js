@@ -11,7 +11,7 @@ import { derivedOf } from './surface/derived-data.js';
 
 /** @import {Preview} from './preview.js' */
 /** @import {Accuracy, Image} from './surface/derived-data.js' */
-/** @import {ExampleOptions, Heightfield, SampledMesh, Surface} from '../pkg/types.js' */
+/** @import {Heightfield, SampledMesh, Surface} from '../pkg/types.js' */
 /** @import {OpenSolver} from '../pkg/index.js' */
 
 /**
@@ -136,13 +136,16 @@ export class Session extends Events {
   }
 
   /**
-   * An example of the package. The solver's worker makes it, unless that worker is busy or about to be disposed of.
+   * An example of the package as an input. The solver's worker makes it, unless that worker is busy or about to be disposed of.
    * @param {ExampleName} name
-   * @param {ExampleOptions} options
+   * @param {{ size: number, noise: number }} options
+   * @returns {Promise<Input>}
    */
-  example(name, options) {
+  async example(name, options) {
     const isFree = !this.#job && !(this.#openSolver && isLarge(this.#openSolver.input));
-    return (isFree ? this.#connectedWorker() : this.api).example(name, options);
+    const { input, truth } = await (isFree ? this.#connectedWorker() : this.api).example(name, options);
+    const { width, height, data, pixelSize = 1, heightScale = 1 } = input;
+    return { name, width, height, data, pixelSize, heightScale, truth, example: options };
   }
 
   /** @param {Phase} phase */

@@ -2,7 +2,6 @@
 import assert from 'node:assert/strict';
 import { addressOf, stateOf } from '../../www/address.js';
 import { CARDS } from '../../www/gallery/cards.js';
-import { drawPicture } from '../../www/gallery/pictures.js';
 import { test } from 'node:test';
 import { grid, npy } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
@@ -38,28 +37,6 @@ test('the gallery has a card for each figure of the paper that it tells, with an
     assert.equal(made.data.length, made.width * made.height, id);
     assert.ok(made.data.some(Number.isFinite) && !made.data.some((z) => Math.abs(z) === Infinity), id);
   }
-});
-
-test('pictures of the gallery are solved one after the other, also after one that fails', async () => {
-  const fits = { begun: 0, running: 0, most: 0 };
-  class SolverWorker {
-    async fit() {
-      const isFirst = fits.begun++ === 0;
-      fits.most = Math.max(fits.most, ++fits.running);
-      await new Promise((resolve) => setTimeout(resolve));
-      fits.running--;
-      if (isFirst) throw new Error('it fails');
-      return {};
-    }
-    async draw() {}
-    dispose() {}
-  }
-  const card = /** @type {any} */ ({ ...CARDS[0], input: () => ({ width: 1, height: 1, data: [0], pixelSize: 1, heightScale: 1 }) });
-  const canvas = /** @type {any} */ ({ getContext: () => null });
-  Object.assign(globalThis, { window: globalThis });
-  await Promise.all([1, 2, 3].map(() => drawPicture(/** @type {any} */ ({ SolverWorker }), /** @type {any} */ (defaults), card, canvas)));
-  Reflect.deleteProperty(globalThis, 'window');
-  assert.deepEqual([fits.begun, fits.most], [3, 1]);
 });
 
 pageTest('settings stand in the address, Back undoes them, and a file is there after a reload', async (page) => {

@@ -1,4 +1,4 @@
-/** Cards of the gallery: common uses first, then the paper's figures. Their inputs are generated. */
+/** Cards of the gallery: common uses first, then the paper's figures. Their inputs are generated; `node tools/doors.mjs` makes their pictures. */
 import { sampledInput } from './inputs.js';
 import { bust, crumpledNote, hall, occludedWall, pleats, rotated, terrain, tiltedCylinder } from './shapes.js';
 
@@ -9,8 +9,8 @@ import { bust, crumpledNote, hall, occludedWall, pleats, rotated, terrain, tilte
  * @property {string} title
  * @property {string} words description in two sentences
  * @property {string} look what the result shows
- * @property {{ name: ExampleName, size: number, noise: number }} [example] example of the package
- * @property {(size: number, turn: number) => Input} [input] generates the input, by the pixels along its side and the angle by which it is turned
+ * @property {{ name: ExampleName, noise: number }} [example] example of the package
+ * @property {(size: number, turn: number) => Input} [input] generates any other input, by the pixels along its side and the angle by which it is turned
  * @property {readonly number[]} [turns] angles by which the input may be turned, in degrees
  * @property {number} size pixels along the side of the input
  * @property {Partial<Settings>} settings settings that differ from the defaults
@@ -28,7 +28,7 @@ export const CARDS = [
     id: 'auto', title: 'A noisy house, cleaned by itself',
     words: 'The page measures the noise of the heights and chooses the detail (λ) by itself. You need not know what λ is.',
     look: 'The noise that was found stands below the slider.',
-    example: { name: 'house', size: 160, noise: 0.03 }, size: 160, settings: { lambda: 'auto', energy: 'huber' }, view: 'shaded',
+    example: { name: 'house', noise: 0.03 }, size: 160, settings: { lambda: 'auto', energy: 'huber' }, view: 'shaded',
   },
   {
     id: 'fig-11', figure: 'Fig. 11', title: 'A crumpled note, facet by facet',
@@ -40,13 +40,13 @@ export const CARDS = [
     id: 'certificate', title: 'An oloid, proven to a thousandth',
     words: 'Every result comes with a proof of how near it is to the best possible surface. Here the solve goes on until that is a thousandth.',
     look: 'The gap falls to 0.1 % of the energy.',
-    example: { name: 'oloid', size: 200, noise: 0.02 }, size: 200, settings: { ...PAPER_SETTINGS, gap: 0.001 }, view: 'shaded', opens: 'drawer',
+    example: { name: 'oloid', noise: 0.02 }, size: 200, settings: { ...PAPER_SETTINGS, gap: 0.001 }, view: 'shaded', opens: 'drawer',
   },
   {
     id: 'fig-4', figure: 'Fig. 4', title: 'A roof, coarse or fine: the same pieces',
     words: 'This is a noisy scan of two vaults and a tower. The same λ gives the same surface, on a coarse image and on a fine one.',
     look: 'Change the size under “More options”: the pieces and creases stay where they are.',
-    example: { name: 'roof', size: 200, noise: 0.02 }, size: 200, settings: PAPER_SETTINGS, view: 'patches',
+    example: { name: 'roof', noise: 0.02 }, size: 200, settings: PAPER_SETTINGS, view: 'patches',
   },
   {
     id: 'fig-5', figure: 'Fig. 5', title: 'Steel sails behind blocks',
@@ -76,7 +76,7 @@ export const CARDS = [
     id: 'fig-10', figure: 'Fig. 10', title: 'The scan of a page, laid flat',
     words: 'The scan of a page has noise of a tenth of its height. The result has the lengths of the paper again.',
     look: 'The page lies flat: a rectangle with the proportions of A4, with hardly any stretch.',
-    example: { name: 'page', size: 200, noise: 0.1 }, size: 200, settings: { ...PAPER_SETTINGS, lambda: 1e5 }, view: 'sheet',
+    example: { name: 'page', noise: 0.1 }, size: 200, settings: { ...PAPER_SETTINGS, lambda: 1e5 }, view: 'sheet',
   },
   {
     id: 'fig-22', figure: 'Figs. 20, 22', title: 'A tilted cylinder without facets',
@@ -88,7 +88,7 @@ export const CARDS = [
     id: 'fig-21', figure: 'Fig. 21', title: 'A house with smeared ridges',
     words: 'An energy of squares spreads bends out. It smears the ridges of a house, which then cannot be laid flat.',
     look: 'Blue and red stand beside the ridges. They vanish with the nuclear norm under “More options”.',
-    example: { name: 'house', size: 200, noise: 0.01 }, size: 200, settings: { ...PAPER_SETTINGS, energy: 'squaredNuclear' }, view: 'gaussian',
+    example: { name: 'house', noise: 0.01 }, size: 200, settings: { ...PAPER_SETTINGS, energy: 'squaredNuclear' }, view: 'gaussian',
   },
   {
     id: 'fig-23', figure: 'Fig. 23', title: 'Mountains as if folded from paper',

@@ -1,7 +1,6 @@
 /** The gallery: cards with pictures. A card opens an input with settings and a view, and tells its story. */
 import { element, make, makeButton } from '../dom.js';
 import { CARDS } from '../gallery/cards.js';
-import { drawPicture, cardInput } from '../gallery/pictures.js';
 
 /**
  * @param {Session} session
@@ -23,7 +22,7 @@ export function galleryPanel(session, { adopt, choose, strip, enter, expectsInpu
   let inputName = '';
 
   const open = () => {
-    if (list.childElementCount === 0) addCards(session, list, (card) => void show(card));
+    if (list.childElementCount === 0) list.append(...CARDS.map((card) => cardButton(card, () => show(card))));
     dialog.showModal();
   };
   element('gallery-open', HTMLButtonElement).addEventListener('click', open);
@@ -48,6 +47,13 @@ export function galleryPanel(session, { adopt, choose, strip, enter, expectsInpu
     element('story-turns', HTMLElement).hidden = !present.turns;
   };
 
+  /** The input of a card. @param {Card} card @param {number} turn angle by which it is turned, in degrees */
+  const inputOf = async ({ example, input, size }, turn) => {
+    if (input) return input(size, turn);
+    if (!example) throw new Error('it has neither');
+    return session.example(example.name, { size, noise: example.noise });
+  };
+
   /**
    * @param {Card} card
    * @param {Partial<Settings>} [settings] default: the card's own
@@ -57,7 +63,7 @@ export function galleryPanel(session, { adopt, choose, strip, enter, expectsInpu
     dialog.close();
     enter();
     if (card !== present) turns.replaceChildren(...(card.turns ?? []).map((angle) => new Option(`${angle}°`, String(angle))));
-    const opened = await session.open('The gallery’s input could not be made', () => cardInput(session.api, card, card.size, Number(turns.value)), 'making');
+    const opened = await session.open('The gallery’s input could not be made', () => inputOf(card, Number(turns.value)), 'making');
     if (!opened) return;
     present = card;
     inputName = session.input?.name ?? '';
@@ -92,22 +98,8 @@ export function galleryPanel(session, { adopt, choose, strip, enter, expectsInpu
   };
 }
 
-/**
- * @param {Session} session
- * @param {HTMLElement} list
- * @param {(card: Card) => void} onChosen
- */
-function addCards(session, list, onChosen) {
-  for (const card of CARDS) {
-    const canvas = make('canvas', '');
-    canvas.setAttribute('aria-hidden', 'true');
-    const button = makeButton('card', () => onChosen(card), canvas, make('strong', '', card.title), make('span', 'small', card.words), ...(card.figure ? [make('span', 'muted small', `${card.figure} of the paper`)] : []));
-    list.append(button);
-    // The picture is drawn when the card is scrolled into view.
-    new IntersectionObserver((entries, observer) => {
-      if (!entries.some(({ isIntersecting }) => isIntersecting)) return;
-      observer.disconnect();
-      void drawPicture(session.api, session.defaults, card, canvas);
-    }).observe(canvas);
-  }
+/** The button of a card, with its picture. @param {Card} card @param {() => unknown} onChosen */
+function cardButton({ id, title, words, figure }, onChosen) {
+  const picture = Object.assign(make('img', ''), { loading: 'lazy', src: new URL(`../gallery/pictures/${id}.webp`, import.meta.url).href, alt: '' });
+  return makeButton('card', onChosen, picture, make('strong', '', title), make('span', 'small', words), ...(figure ? [make('span', 'muted small', `${figure} of the paper`)] : []));
 }

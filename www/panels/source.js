@@ -59,12 +59,7 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
   /** Opens the chosen example and solves it. */
   const openChosenExample = async () => {
     const options = { size: examples.number('size'), noise: examples.number('noise') };
-    const opened = await session.open('The example could not be made', async () => {
-      const name = /** @type {ExampleName} */ (examples.text('example'));
-      const { input, truth } = await session.example(name, options);
-      const { width, height, data, pixelSize: side = 1, heightScale: step = 1 } = input;
-      return { name, width, height, data, pixelSize: side, heightScale: step, truth, example: options };
-    }, 'making');
+    const opened = await session.open('The example could not be made', () => session.example(/** @type {ExampleName} */ (examples.text('example')), options), 'making');
     if (opened) await session.run();
   };
 

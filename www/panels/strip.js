@@ -1,12 +1,14 @@
 /** Results with five λ, as small pictures side by side; a click takes the λ of one. */
 import { element, make, makeButton } from '../dom.js';
-import { THUMBNAIL_GAP, THUMBNAIL_SIDE_PIXELS } from '../gallery/pictures.js';
 import { shortLambda } from '../format.js';
 import { smoothPatchCount } from '../analyses.js';
 import { STRIP_WORDS } from '../messages.js';
 import { rmsError } from '../surface/compare.js';
 import { downsample } from '../surface/downsampling.js';
 
+/** Pixels along the longer side of the heights that a picture shows, and the duality gap at which their solve stops. */
+const THUMBNAIL_SIDE_PIXELS = 120;
+const THUMBNAIL_GAP = 0.05;
 /** λ of the five pictures. */
 const STRIP_LAMBDAS = [1e4, 1e5, 1e6, 1e7, 1e8];
 

@@ -5,10 +5,7 @@ import { transferToWorker, callWorker } from './surface/worker-client.js';
 import { Tasks } from './worker-task.js';
 import { heightsOf } from './session.js';
 
-/** @import {Surface} from '../pkg/types.js' */
-
-/** @typedef {import('../pkg/types.js').Analysis} Analysis */
-/** @typedef {ReturnType<typeof import('./surface/gaussian-curvature.js').curvaturesOf>} Curvatures */
+/** @import {Analysis, Surface} from '../pkg/types.js' */
 
 /** Longer side of the lattice that is cut into sheets, in pixels: a pixel is half a millimetre for a piece of 20 cm. */
 const PATTERN_SIDE_PIXELS = 450;
@@ -31,13 +28,13 @@ export class Analyses {
   /**
    * Curvatures of the input and of the result, on the same lattice.
    * @param {Result} result
-   * @returns {Promise<{ before: Curvatures, after: Curvatures }>}
+   * @returns {Promise<{ before: Analysis, after: Analysis }>}
    */
   async curvatures({ input, surface }) {
     const { spacing } = surface;
     const [before, after] = await Promise.all([
       this.#tasks.answer(input, `curvatures ${spacing}`, (worker) =>
-        worker.analyze(heightsOf(input), input.lattice ? {} : { spacing }).then(shownCurvatures)),
+        worker.analyze(heightsOf(input), input.lattice ? {} : { spacing })),
       this.curvature(surface),
     ]);
     return { before, after };
@@ -45,7 +42,7 @@ export class Analyses {
 
   /** @param {Surface} surface */
   curvature(surface) {
-    return this.#tasks.answer(surface, 'curvatures', (worker) => worker.analyze(surface).then(shownCurvatures));
+    return this.#tasks.answer(surface, 'curvatures', (worker) => worker.analyze(surface));
   }
 
   /** @param {Result} result */
@@ -102,10 +99,4 @@ export class Analyses {
 export async function smoothPatchCount({ rows, cols, labels, spacing, patches }, { gaussian }) {
   const roundness = await callWorker('totalGaussianCurvature', { rows, cols, labels, spacing }, { gaussian });
   return roundness < MAX_SHEET_CURVATURE_RADIANS ? patches.length : Infinity;
-}
-
-/** The curvatures of an analysis, for display. @param {Analysis} analysis */
-function shownCurvatures(analysis) {
-  const { gaussian, kappa1, kappa2 } = analysis;
-  return transferToWorker('curvaturesOf', [gaussian, kappa1, kappa2], analysis);
 }

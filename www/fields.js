@@ -1,5 +1,5 @@
-/** Forms that are built from tables of their fields: labels, units, ranges and hints. What is wrong in a field is said beneath it. */
-import { make } from './dom.js';
+/** Forms that are built from tables of their fields: labels, units, ranges and hints. What is wrong in a field is said beneath it. And choices of one among few. */
+import { element, make } from './dom.js';
 import { numberIn } from './format.js';
 
 /**
@@ -98,5 +98,30 @@ export function fieldsOf(table, onChange = () => {}) {
     },
     /** Says at each field what is wrong in it. @returns {string} the first fault with the label of its field; empty if there is none */
     check: () => names.map((name) => [fields[name].check(), table[name].label]).filter(([fault]) => fault).map(([fault, label]) => `“${label}”: ${fault}`)[0] ?? '',
+  };
+}
+
+/**
+ * Builds a choice of one among few, the first at first.
+ * @param {string} name of the radio buttons
+ * @param {Readonly<Record<string, string>>} options words by value
+ * @param {(value: string) => void} onChange called when the user has chosen
+ */
+export function choiceOf(name, options, onChange) {
+  const radios = Object.keys(options).map((value, i) => Object.assign(make('input', ''), { type: 'radio', name, value, checked: i === 0 }));
+  const labels = radios.map((radio) => make('label', '', radio, make('span', '', options[radio.value])));
+  const box = element(`${name}-choice`, HTMLElement);
+  box.append(...labels);
+  box.addEventListener('change', ({ target }) => onChange(/** @type {HTMLInputElement} */ (target).value));
+  return {
+    box,
+    /** The value that is chosen; empty if none is. */
+    get value() {
+      return radios.find(({ checked }) => checked)?.value ?? '';
+    },
+    /** Chooses a value, or none. @param {string} value */
+    set: (value) => radios.forEach((radio) => (radio.checked = radio.value === value)),
+    /** Shows some of the options. @param {(value: string) => boolean} isOffered */
+    offer: (isOffered) => radios.forEach(({ value }, i) => (labels[i].hidden = !isOffered(value))),
   };
 }

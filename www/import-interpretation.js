@@ -1,7 +1,7 @@
 /** Interpretation of a file of numbers as heights: guessed when it is opened, and changed by the user afterwards. */
 import { number } from './format.js';
 import { GUESS_WORDS } from './messages.js';
-import { rangeOf } from './surface/compare.js';
+import { sidesOf } from './surface/triangles.js';
 
 /** @typedef {Awaited<ReturnType<Api['read']>>} Read */
 
@@ -40,7 +40,7 @@ export function interpretFile(read, noData) {
   const areFew = depths === 'none' && given < MIN_MEASURED_SHARE * data.length;
   const coarsening = coarseningFor(read);
   const guesses = [areFew ? GUESS_WORDS.few : '', coarsening > 1 ? GUESS_WORDS.coarse(coarsening) : ''].filter(Boolean).join(' ');
-  const stored = { width, height, data, range: rangeOf(data), pixelSize, heightScale, levels: /^u/.test(dataType), guesses, coarsening, noData };
+  const stored = { width, height, data, range: sidesOf(data, 1)[0], pixelSize, heightScale, levels: /^u/.test(dataType), guesses, coarsening, noData };
   return { width, height, data, pixelSize, heightScale, unit: unit ?? undefined, depths: depths === 'none' ? undefined : depths, depthUnit, stored };
 }
 

@@ -64,7 +64,7 @@ async function start() {
     },
   });
   const addressSync = addressSyncPanel(session, {
-    adopt, choose: stage.choose, openExample: source.openExample, openFiles: source.openFiles, reinterpretFile: source.reinterpretFile, gallery, mode,
+    adopt, stage, openExample: source.openExample, openFiles: source.openFiles, reinterpretFile: source.reinterpretFile, gallery, mode,
     openHeights: (stored) => void files.open(stored), openPhotos: page.openStored, beginPhoto: page.begin, showExamplePhoto: page.showExample, meshFit, meshFitView,
   });
   await started;

@@ -1,7 +1,7 @@
 /** The fit of a whole mesh, and analyses of the result. */
 import { Tasks } from './worker-task.js';
 import { Events } from './events.js';
-import { boxOf } from './surface/triangles.js';
+import { sidesOf } from './surface/triangles.js';
 
 /** @typedef {(progress: import('./panels/waiting.js').TaskProgress) => void} Tell gets how far a step is */
 
@@ -93,7 +93,7 @@ export class MeshFit extends Events {
 
   /** @param {Mesh} mesh */
   rulings(mesh) {
-    return this.#tasks.answer(mesh, 'rulings', (worker) => worker.meshRulings(geometryOf(mesh), { separation: longestSide(mesh) / RULINGS_PER_LONGEST_SIDE }));
+    return this.#tasks.answer(mesh, 'rulings', (worker) => worker.meshRulings(geometryOf(mesh), { separation: Math.max(...sidesOf(mesh.positions)) / RULINGS_PER_LONGEST_SIDE }));
   }
 
   /** @param {Mesh} mesh @param {Tell} tell */
@@ -131,15 +131,4 @@ export class MeshFit extends Events {
 /** The geometry of a mesh, without its texture. @param {Mesh} mesh */
 function geometryOf({ positions, triangles, unit }) {
   return { positions, triangles, unit };
-}
-
-/** Sides of the bounding box of a mesh, along x, y and z. @param {Pick<Mesh, 'positions'>} mesh */
-export function boundingBoxSides({ positions }) {
-  const { low, high } = boxOf(positions);
-  return high.map((value, k) => value - low[k]);
-}
-
-/** Longest side of the bounding box of a mesh. @param {Pick<Mesh, 'positions'>} mesh */
-export function longestSide(mesh) {
-  return Math.max(...boundingBoxSides(mesh));
 }

@@ -4,7 +4,7 @@ import { make } from './dom.js';
 import { between, fieldsOf } from './fields.js';
 import { FORMAT_WORDS, SOLID_WORDS } from './messages.js';
 import { suggestedSide } from './pattern.js';
-import { borderEdges, boxOf } from './surface/triangles.js';
+import { borderEdges, boxOf, sidesOf } from './surface/triangles.js';
 import { zip } from './zip.js';
 
 /** @import {Format} from './panels/save-dialog.js' */
@@ -22,8 +22,8 @@ import { zip } from './zip.js';
  * @returns {{ positions: Float64Array, triangles: Uint32Array, wasOpen: boolean }}
  */
 function solidOf({ positions, triangles }, { side, thickness, onBase }) {
-  const { low, high } = boxOf(positions);
-  const scale = side / Math.max(...high.map((value, k) => value - low[k]));
+  const { low } = boxOf(positions);
+  const scale = side / Math.max(...sidesOf(positions));
   const front = Float64Array.from(positions, (value, i) => (value - low[i % 3]) * scale);
   const rim = borderEdges(triangles);
   if (rim.length === 0) return { positions: front, triangles, wasOpen: false };
@@ -90,15 +90,15 @@ async function threeMf({ positions, triangles }) {
  * A surface as formats of the save dialog, solids among them, and the fields for the size of these.
  * @param {object} given
  * @param {import('../pkg/types.js').Surface | Mesh} given.surface
- * @param {number} given.length longest side of its bounding box, in its unit
+ * @param {Float64Array} given.positions of its vertices
  * @param {string | null} [given.unit]
  * @param {boolean} given.onBase
  * @param {(worker: PackageWorker) => Promise<Pick<Mesh, 'positions' | 'triangles'>>} given.mesh
  * @returns {{ formats: Format[], fields: HTMLElement, onChange: (act: () => void) => void }}
  */
-export function surfaceFormats({ surface, length, unit, onBase, mesh }) {
+export function surfaceFormats({ surface, positions, unit, onBase, mesh }) {
   const fields = fieldsOf({
-    'solid-side': { label: 'Longest side when printed, mm', value: String(suggestedSide(length, unit)), range: between(0.1, Infinity, 'of at least 0.1') },
+    'solid-side': { label: 'Longest side when printed, mm', value: String(suggestedSide(Math.max(...sidesOf(positions)), unit)), range: between(0.1, Infinity, 'of at least 0.1') },
     'solid-thickness': { label: onBase ? 'Base at its thinnest, mm' : 'Thickness, mm', value: '2', range: between(0.1, Infinity, 'of at least 0.1') },
   });
   const box = make('div', 'pair for-solid', ...fields.nodes());

@@ -8,7 +8,8 @@ import { promisify } from 'node:util';
 import * as direct from '../../pkg/direct.js';
 import { optionsOf } from '../../pkg/options.js';
 import { asCode, asCommand } from '../../www/reproduce.js';
-import { longestLatticeSide } from '../../www/surface/lattice.js';
+import { latticePositions } from '../../www/surface/lattice.js';
+import { sidesOf } from '../../www/surface/triangles.js';
 import { parse, run, temporaryFolder } from './support/command.mjs';
 import { image, lattice, plane } from './support/shapes.mjs';
 import { pkg } from './support/paths.mjs';
@@ -99,5 +100,5 @@ test('nothing is copied of what neither can open', () => {
 test('the size of a solid is that of its vertices, without the empty part of the image', () => {
   const field = lattice(22, 26, () => 3, 0.5);
   for (let i = 0; i < field.heights.length; i++) if (i % 26 > 10 || i > 4 * 26) field.heights[i] = NaN;
-  assert.equal(longestLatticeSide(field), 10.5 * 0.5);
+  assert.equal(Math.max(...sidesOf(latticePositions(field))), 10.5 * 0.5);
 });

@@ -117,7 +117,7 @@ doorTest('a file, a mesh’s other side and a file to be saved can be done witho
   const before = await page.locator('#input-caption').innerText();
   const ways = /** @type {const} */ ([
     ['opening', /Reading the file/, () => drop(page, 'slope.npy', npy(WIDTH, plane))],
-    ['opening', /Looking at it from there/, () => page.getByRole('button', { name: '+x', exact: true }).click()],
+    ['opening', /Looking at it from there/, () => choose(page.getByRole('radio', { name: '+x', exact: true }))],
     ['writing', /Writing the file/, () => page.locator('#end-file').click()],
   ]);
   for (const [i, [panel, words, act]] of ways.entries()) {

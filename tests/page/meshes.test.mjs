@@ -1,7 +1,7 @@
 /** Meshes and point clouds, seen from a direction of one's choice; files with several arrays. */
 import assert from 'node:assert/strict';
 import { grid, npy, npz, obj, parseNpy, ply } from './support/files.mjs';
-import { doorTest, drop, look, open, openFromOneSide, pageTest, painted, runBy, save, settled } from './support/page.mjs';
+import { choose, doorTest, drop, look, open, openFromOneSide, pageTest, runBy, save, settled } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('./support/files.mjs').Mesh} Mesh */
@@ -35,9 +35,7 @@ async function solved(page) {
 
 /** @param {Page} page @param {string} name */
 async function from(page, name) {
-  await page.getByRole('button', { name, exact: true }).click();
-  await page.getByRole('button', { name, exact: true, pressed: true }).waitFor();
-  await painted(page);
+  await runBy(page, () => choose(page.getByRole('radio', { name, exact: true })));
 }
 
 /**

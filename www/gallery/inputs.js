@@ -1,6 +1,6 @@
 /** Inputs of the gallery: height images with noise or steps. */
 
-import { rangeOf } from '../surface/compare.js';
+import { sidesOf } from '../surface/triangles.js';
 
 /** @import {Heights} from './shapes.js' */
 
@@ -22,7 +22,7 @@ export function sampledInput(name, heights, size, { noise = 0, voxels, known = n
   const truth = image(heights, size);
   const given = voxels ? image(voxelHeights(heights, voxels), size) : truth;
   const random = randomGenerator(NOISE_SEED);
-  const range = rangeOf(truth);
+  const [range] = sidesOf(truth, 1);
   const data = given.map((z) => z + noise * range * normalSample(random));
   return { name, width: size, height: size, data, pixelSize: 1 / size, heightScale: 1, ...(known && { truth }) };
 }

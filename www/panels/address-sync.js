@@ -15,7 +15,7 @@ import { showNotice } from './notice.js';
  * @param {Session} session
  * @param {object} page
  * @param {(settings: Settings) => void} page.adopt
- * @param {(view: string) => void} page.choose shows a view
+ * @param {Stage} page.stage
  * @param {(name: string, options: { size: number, noise: number }) => Promise<void>} page.openExample
  * @param {(files: File[]) => Promise<unknown>} page.openFiles
  * @param {(files: File[]) => unknown} page.openHeights opens recent files that are no photos of pages
@@ -29,8 +29,7 @@ import { showNotice } from './notice.js';
  * @param {{ readonly isShown: boolean, enter: (view: string) => void, leave: () => void }} page.meshFitView
  */
 export function addressSyncPanel(session, page) {
-  const views = elements('input[name="view"]', HTMLInputElement);
-  const view = () => views.find((radio) => radio.checked)?.value ?? 'shaded';
+  const view = () => page.stage.view;
   /** Id of the open file in the storage of recent files. @type {number | undefined} */
   let fileId;
   let writeTimer = 0;
@@ -108,7 +107,7 @@ export function addressSyncPanel(session, page) {
     void updateRecentFiles();
   });
   // A change of the view gets no entry of its own in the history.
-  for (const radio of views) radio.addEventListener('change', () => writeAddress());
+  element('view-choice', HTMLElement).addEventListener('change', writeAddress);
 
   /** Opens stored photos of pages. @param {number} id @returns {Promise<boolean>} whether they were stored */
   const openStoredPhotos = async (id) => {
@@ -173,7 +172,7 @@ export function addressSyncPanel(session, page) {
       }
       if (state.whole) return page.meshFitView.enter(state.view ?? 'shaded');
       page.meshFitView.leave();
-      page.choose(state.view ?? 'shaded');
+      page.stage.choose(state.view ?? 'shaded');
     } finally {
       if (own === newestRestore) isRestoring = false;
       if (session.input && !isRestoring) addressWithoutView = addressOf({ ...presentState(), view: undefined }, session.defaults);

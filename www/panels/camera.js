@@ -5,7 +5,7 @@ import { hasCode } from '../error-messages.js';
 import { above, between, fieldsOf } from '../fields.js';
 import { number } from '../format.js';
 import { DEPTH_WORDS } from '../messages.js';
-import { boundsOf } from '../surface/compare.js';
+import { boxOf } from '../surface/triangles.js';
 
 /** @import {PhotoCamera} from '../../pkg/types.js' */
 /** @import {InputOrigin} from './mesh.js' */
@@ -40,7 +40,8 @@ export function cameraPanel(session, openLoadedMesh) {
     const input = depthInput();
     if (!input) return;
     about.textContent = fileCamera ? DEPTH_WORDS.camera(fileCamera) : '';
-    const [near, far] = boundsOf(input.data, 0).map((depth) => depth * fields.number('camera-scale'));
+    const { low, high } = boxOf(input.data.filter((depth) => depth > 0 && depth < Infinity), 1);
+    const [near, far] = [...low, ...high].map((depth) => depth * fields.number('camera-scale'));
     span.textContent = Number.isFinite(near) ? `With this scale, what is seen is ${number(near)} to ${number(far)} away.` : '';
   };
   /** Shows the fields, filled with a typical camera, whose principal point is the middle of the image. */

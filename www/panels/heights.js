@@ -1,7 +1,8 @@
 /** Heights and their result on the stage: the surfaces in space, previews of the result, and the views of it. */
 import { number, shortLambda } from '../format.js';
 import { heightAt, heightfieldBox, reliefMesh, reliefOf } from '../surface/relief.js';
-import { curvature, overHeights } from '../views/curvature.js';
+import { latticeField } from '../surface/layer.js';
+import { curvature } from '../views/curvature.js';
 import { patchesOfHeights } from '../views/patches.js';
 import { hasColours, photo } from '../views/photo.js';
 import { flat } from '../views/pieces.js';
@@ -27,7 +28,7 @@ export function heightsPanel(session, analyses) {
   /** @param {(result: Result, tell: Tell) => ReturnType<View>} prepare @returns {View} */
   const ofResult = (prepare) => (tell) => prepare(/** @type {Result} */ (session.result), tell);
   /** @param {'gaussian' | 'kappa2'} what */
-  const curvatureView = (what) => ofResult(async (result) => curvature(what, result.input.unit, await analyses.curvatures(result), overHeights(result.input, what)));
+  const curvatureView = (what) => ofResult(async (result) => curvature(what, result.input.unit, await analyses.curvatures(result), (analysis) => latticeField(analysis, analysis[what])));
   /** @type {Subject} */
   const heights = {
     isWhole: false,
@@ -48,7 +49,7 @@ export function heightsPanel(session, analyses) {
       kappa2: curvatureView('kappa2'),
       rulings: ofResult(async (result) => rulings((await analyses.rulings(result)).lines, result.input.unit)),
       patches: ofResult(async (result) => patchesOfHeights(result.input, await analyses.patches(result))),
-      photo: ofResult(({ input }) => photo(input)),
+      photo: ofResult(async ({ input }) => photo(input)),
       sheet: ofResult((result, tell) => flat(session.api, analyses, result, tell)),
     },
     offers: (view) => view !== 'photo' || (session.input !== null && hasColours(session.input)),

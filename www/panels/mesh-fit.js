@@ -1,19 +1,20 @@
 /** Whole meshes on the stage: the mesh and its fit in space, the views of it, and what it is saved as. */
-import { download, element, elements } from '../dom.js';
+import { download, element } from '../dom.js';
+import { choiceOf } from '../fields.js';
 import { capitalised, percent, shortLambda } from '../format.js';
 import { lengthUnitOf } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
 import { MESH_FIT_WORDS } from '../messages.js';
-import { boxOf } from '../surface/triangles.js';
+import { boxOf, sidesOf } from '../surface/triangles.js';
 import { PAPER_LOOKS } from '../surface/scene.js';
-import { curvature, overMeshes } from '../views/curvature.js';
+import { meshField } from '../surface/layer.js';
+import { curvature } from '../views/curvature.js';
 import { figures } from '../views/legend.js';
 import { readingAt, meshFacts, meshFitSummary } from '../views/mesh-fit.js';
 import { patchesOfMesh } from '../views/patches.js';
 import { photoOfMesh } from '../views/photo.js';
 import { rulings } from '../views/rulings.js';
 import { sheetOfMesh } from '../views/sheet.js';
-import { longestSide } from '../mesh-fit.js';
 import { surfaceFormats } from '../solid.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
@@ -27,7 +28,6 @@ const Y_UP_KINDS = ['OBJ', 'GLB', 'GLTF'];
 export function meshFitPanel(session, meshFit, stage, heights) {
   const hint = element('whole-hint', HTMLElement);
   const report = element('whole-report', HTMLButtonElement);
-  const ways = elements('input[name="mesh-way"]', HTMLInputElement);
   /** The mesh that the input was sampled from, if it has triangles. @type {Mesh | null} */
   let inputMesh = null;
   /** The mesh that was turned to. @type {Mesh | null} */
@@ -51,11 +51,11 @@ export function meshFitPanel(session, meshFit, stage, heights) {
       // Curvature of flat faces is at their corners, and colours between these would be none of the faces'.
       if (!fitted() && (await meshFit.recognized(mesh)).kind === 'faces') return { said: MESH_FIT_WORDS.flatFaces };
       const [before, after] = await Promise.all([meshFit.curvatures(mesh), meshFit.curvatures(surface)]);
-      return curvature('gaussian', mesh.unit, { before, after }, overMeshes([mesh, surface]));
+      return curvature('gaussian', mesh.unit, { before, after }, ({ gaussian }) => meshField(mesh, gaussian));
     }),
     rulings: ofSurface(async (surface, { unit }) => rulings((await meshFit.rulings(surface)).lines, unit)),
     patches: ofSurface(async (surface, _, tell) => patchesOfMesh(surface, await meshFit.unrolled(surface, tell))),
-    photo: ofSurface((surface, mesh) => photoOfMesh(mesh, surface)),
+    photo: ofSurface((_, mesh) => photoOfMesh(mesh)),
     sheet: ofSurface(async (surface, { unit }, tell) => sheetOfMesh(unit ?? 'units', await meshFit.unrolled(surface, tell), surface)),
   };
   /** @type {Subject} */
@@ -84,14 +84,14 @@ export function meshFitPanel(session, meshFit, stage, heights) {
     saveFile: () => {
       const { surface } = meshFit;
       if (!surface) return;
-      const solid = surfaceFormats({ surface, length: longestSide(surface), unit: surface.unit, onBase: false, mesh: async () => surface });
+      const solid = surfaceFormats({ surface, positions: surface.positions, unit: surface.unit, onBase: false, mesh: async () => surface });
       const offer = offerToSave(session.api, { title: '3D file', stem: stem(), unit: surface.unit, extra: [solid.fields], formats: solid.formats });
       solid.onChange(offer.renew);
     },
     cutSheets: () => {
       const { surface } = meshFit;
       if (!surface) return;
-      const longest = longestSide(surface);
+      const longest = Math.max(...sidesOf(surface.positions));
       offerSheets(session.api, {
         stem: stem(),
         length: longest,
@@ -110,7 +110,7 @@ export function meshFitPanel(session, meshFit, stage, heights) {
     if (!inputMesh) return;
     isFirstSolve = false;
     session.setAutoRun(false);
-    for (const radio of ways) radio.checked = radio.value === 'whole';
+    way.set('whole');
     void meshFit.solve(inputMesh, session.settings.lambda);
   };
   /** Returns to the input that was sampled from the mesh. */
@@ -119,7 +119,7 @@ export function meshFitPanel(session, meshFit, stage, heights) {
     stage.setSolving(false);
     session.setAutoRun(true);
     stage.enter(heights);
-    for (const radio of ways) radio.checked = radio.value === 'seen';
+    way.set('seen');
   };
   /** Returns to one side of the mesh, and solves it if that has not been done. */
   const showOneSide = () => {
@@ -167,13 +167,13 @@ export function meshFitPanel(session, meshFit, stage, heights) {
   report.addEventListener('click', () => {
     if (meshFit.surface) download(`${JSON.stringify(meshFit.surface.report, null, 2)}\n`, 'application/json', `${stem()}-report.json`);
   });
-  for (const radio of ways) radio.addEventListener('change', () => (radio.value === 'whole' ? enter(stage.view) : showOneSide()));
+  const way = choiceOf('mesh-way', { seen: 'From one side', whole: 'Whole mesh' }, (chosen) => (chosen === 'whole' ? enter(stage.view) : showOneSide()));
 
   session.on('input', ({ sampling, lattice }) => {
     const mesh = sampling?.mesh ?? null;
     if (mesh !== inputMesh && stage.subject === whole) leave();
     inputMesh = mesh && mesh.triangles.length > 0 ? mesh : null;
-    element('mesh-ways', HTMLElement).hidden = inputMesh === null;
+    way.box.hidden = inputMesh === null;
     hint.textContent = inputMesh && lattice?.hidden ? MESH_FIT_WORDS.hidden(percent(lattice.hidden)) : '';
   });
 

@@ -1,19 +1,22 @@
 /** Meshes and point clouds, sampled as heights from a view. */
 import { runInWorker } from '../worker-task.js';
-import { element, elements } from '../dom.js';
+import { element } from '../dom.js';
+import { choiceOf } from '../fields.js';
 import { count, number } from '../format.js';
-import { boundingBoxSides } from '../mesh-fit.js';
 import { gridOverLattice } from '../surface/lattice.js';
+import { sidesOf } from '../surface/triangles.js';
 import { callWorker } from '../surface/worker-client.js';
 
 /** @typedef {Pick<Input, 'name' | 'kind' | 'photo' | 'depthSource' | 'cameraAssumption'>} InputOrigin */
+
+/** Directions of view by the axis that points at the viewer. @type {Record<string, string>} */
+const DIRECTIONS = { '-z': '+z', '-x': '+x', '-y': '+y', '+z': '−z', '+x': '−x', '+y': '−y', 'best-fit': 'Fitted plane' };
 
 /** @param {Session} session */
 export function meshPanel(session) {
   const panel = element('mesh-options', HTMLElement);
   const name = element('mesh-name', HTMLElement);
   const span = element('mesh-span', HTMLElement);
-  const buttons = elements('button[data-view]', HTMLButtonElement);
 
   /** Samples the mesh with changed options. @param {SampleMeshOptions} change */
   const resample = async (change) => {
@@ -24,17 +27,16 @@ export function meshPanel(session) {
       session, originOf(input), async () => mesh, { ...options, ...change }, 'The mesh could not be seen so', 'sampling',
     );
     if (opened) void session.run();
+    else direction.set(String(options.view));
   };
-  for (const button of buttons) {
-    button.addEventListener('click', () => resample({ view: /** @type {SampleMeshOptions['view']} */ (button.dataset.view) }));
-  }
+  const direction = choiceOf('mesh-side', DIRECTIONS, (view) => void resample({ view: /** @type {SampleMeshOptions['view']} */ (view) }));
   session.on('input', ({ sampling, name: title, kind }) => {
     panel.hidden = sampling === undefined;
     if (!sampling) return;
     const { mesh, options } = sampling;
     name.textContent = `${title} (${kind})`;
     span.textContent = spanInWords(mesh);
-    for (const button of buttons) button.setAttribute('aria-pressed', String(button.dataset.view === options.view));
+    direction.set(String(options.view));
   });
 
   return {
@@ -93,7 +95,7 @@ function originOf({ name, kind, photo, depthSource, cameraAssumption }) {
 
 /** The number of triangles or points and the bounding box as a sentence. @param {Mesh} mesh */
 function spanInWords({ positions, triangles, unit, missing = [] }) {
-  const sides = boundingBoxSides({ positions }).map((side) => number(side)).join(' × ');
+  const sides = sidesOf(positions).map((side) => number(side)).join(' × ');
   const size = triangles.length > 0 ? `${count(triangles.length / 3)} triangles` : `${count(positions.length / 3)} points`;
   const without = missing.length > 0 ? ` Without ${missing.join(', ')}, which were not opened with it.` : '';
   return `${sides}${unit ? ` ${unit}` : ''}, ${size}.${without}`;

@@ -1,6 +1,6 @@
 /** Options of a photo of a page: paper size, light, and number of pages. */
-import { element, elements } from '../dom.js';
-import { above, fieldsOf } from '../fields.js';
+import { element } from '../dom.js';
+import { above, choiceOf, fieldsOf } from '../fields.js';
 import { SAVE_WORDS } from '../messages.js';
 import { PAPERS } from '../page/paper.js';
 
@@ -22,7 +22,7 @@ const FIELDS = {
 
 /** @param {PageSession} session */
 export function pageKnownPanel(session) {
-  const pages = elements('input[name="pages"]', HTMLInputElement);
+  const pages = choiceOf('pages', { 1: 'One page', 2: 'Two pages' }, (value) => (value === '2' ? session.addGutter() : session.removeGutter()));
   const fields = fieldsOf(FIELDS, () => session.setOptions(readOptions()));
   element('format-field', HTMLElement).replaceChildren(...fields.nodes('page-format'));
   element('page-sides', HTMLElement).replaceChildren(...fields.nodes('page-wide', 'page-high'));
@@ -38,12 +38,7 @@ export function pageKnownPanel(session) {
       ...(format === 'a4' || format === 'letter' ? { page: format } : format === 'a4-wide' || format === 'letter-wide' ? { page: [...PAPERS[format]] } : format === 'own' && sides.every((side) => side > 0) && { page: sides }),
     };
   };
-  for (const radio of pages) {
-    radio.addEventListener('change', () => (radio.value === '2' ? session.addGutter() : session.removeGutter()));
-  }
   readOptions();
   session.on('photo', () => (session.options = readOptions()));
-  session.on('outline', ({ outline }) => {
-    for (const radio of pages) radio.checked = radio.value === String(outline.pages);
-  });
+  session.on('outline', ({ outline }) => pages.set(String(outline.pages)));
 }

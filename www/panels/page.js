@@ -1,5 +1,6 @@
 /** The part of the page that makes photos of pages flat: opens photos and examples, and holds the panels of a photo. */
-import { element, elements, SETTLING_MS } from '../dom.js';
+import { element, SETTLING_MS } from '../dom.js';
+import { choiceOf } from '../fields.js';
 import { Book } from '../page/book.js';
 import { BOOK_WORDS } from '../page/messages.js';
 import { openPhoto, preparePhoto } from '../page/photo.js';
@@ -15,10 +16,10 @@ import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
 
 /** @import {BookPhoto} from '../page/book.js' */
 
-/** Example photos, whose focal length for 35 mm film is that of their camera. @type {Record<string, { address: URL, pages: number }>} */
+/** Example photos, whose focal length for 35 mm film is that of their camera. @type {Record<string, { label: string, address: URL, pages: number }>} */
 const EXAMPLES = {
-  curled: { address: new URL('../doors/curled-page.webp', import.meta.url), pages: 1 },
-  book: { address: new URL('../doors/open-book.webp', import.meta.url), pages: 2 },
+  curled: { label: 'Curled page', address: new URL('../doors/curled-page.webp', import.meta.url), pages: 1 },
+  book: { label: 'Open book', address: new URL('../doors/open-book.webp', import.meta.url), pages: 2 },
 };
 const EXAMPLE_FILM35 = 31.1;
 
@@ -30,7 +31,6 @@ const EXAMPLE_FILM35 = 31.1;
 export function pagePanel(api, onOpened, onChanged) {
   /** Created with the first photo. @type {PageSession | null} */
   let session = null;
-  const examples = elements('input[name="page-example"]', HTMLInputElement);
   const book = new Book();
   /** Aborts the photo that is being opened; null before the first one. @type {AbortController | null} */
   let opening = null;
@@ -92,7 +92,7 @@ export function pagePanel(api, onOpened, onChanged) {
     if (session) book.saveState(session);
     const { file, state } = book.photos[at];
     if (!(await show((signal) => openPhoto(api, file, signal), { task: 'reading', state }))) return false;
-    for (const radio of examples) radio.checked = false;
+    examples.set('');
     book.index = at;
     list.renew();
     onOpened(book.photos);
@@ -170,7 +170,7 @@ export function pagePanel(api, onOpened, onChanged) {
   const openExample = async () => {
     book.setFiles([]);
     list.renew();
-    const name = examples.find((radio) => radio.checked)?.value ?? 'curled';
+    const name = examples.value || 'curled';
     const { address, pages } = EXAMPLES[name];
     try {
       const isShown = await show(async (signal) => {
@@ -182,7 +182,7 @@ export function pagePanel(api, onOpened, onChanged) {
       showError('The example could not be made', error);
     }
   };
-  for (const radio of examples) radio.addEventListener('change', openExample);
+  const examples = choiceOf('page-example', Object.fromEntries(Object.entries(EXAMPLES).map(([name, { label }]) => [name, label])), openExample);
   return {
     openAll,
     /** Whether a photo or an example is shown. */
@@ -201,8 +201,8 @@ export function pagePanel(api, onOpened, onChanged) {
     },
     /** Opens an example, unless it is the one that is open. */
     showExample: () => {
-      if (examples.some(({ checked }) => checked) && opening) return;
-      examples[0].checked = true;
+      if (examples.value && opening) return;
+      examples.set('curled');
       void openExample();
     },
   };

@@ -3,7 +3,7 @@ import { percent, shortLambda } from '../format.js';
 import { FORMAT_WORDS, MESH_FIT_WORDS } from '../messages.js';
 import { longerSide, cutSheets, lengthUnitOf } from '../pattern.js';
 import { surfaceFormats } from '../solid.js';
-import { longestLatticeSide } from '../surface/lattice.js';
+import { latticePositions } from '../surface/lattice.js';
 import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
 
@@ -15,7 +15,7 @@ import { offerSheets } from './sheets.js';
 export function offerFile(api, result) {
   const { surface, image } = result;
   const solid = surfaceFormats({
-    surface, length: longestLatticeSide(surface), unit: result.input.unit, onBase: true,
+    surface, positions: latticePositions(surface), unit: result.input.unit, onBase: true,
     mesh: async (worker) => worker.readMesh(new File([/** @type {Uint8Array<ArrayBuffer>} */ (await worker.writePly({ ...surface, frame: undefined, colors: undefined, uvs: undefined }))], 'surface.ply')),
   });
   const offer = offerToSave(api, {

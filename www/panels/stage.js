@@ -3,7 +3,8 @@
  * said of it, and what to do with the result. Heights and whole meshes are subjects that it shows in the same way.
  */
 import { download, element, elements, make, makeButton, oncePerFrame } from '../dom.js';
-import { VIEW_WORDS } from '../messages.js';
+import { choiceOf } from '../fields.js';
+import { VIEW_LABELS, VIEW_WORDS } from '../messages.js';
 import { PictureView } from '../surface/picture-view.js';
 import { SceneView } from '../surface/scene.js';
 import { aboutView, pictureWithColours } from '../views/legend.js';
@@ -11,6 +12,7 @@ import { dividerOver } from './divider.js';
 import { showError } from './notice.js';
 import { waitingPanel } from './waiting.js';
 
+/** @import {Layer} from '../surface/layer.js' */
 /** @import {Box, Look, Place, Surface} from '../surface/scene.js' */
 
 /**
@@ -50,7 +52,6 @@ export function stagePanel(first) {
   const panel = element('analysis', HTMLElement);
   const about = element('about-view', HTMLElement);
   const description = element('view-says', HTMLElement);
-  const radios = elements('input[name="view"]', HTMLInputElement);
   const save = element('view-save', HTMLButtonElement);
   const report = element('whole-report', HTMLElement);
   const mark = element('result-mark', HTMLElement);
@@ -66,9 +67,9 @@ export function stagePanel(first) {
   let turnsAtFirst = false;
   /** @type {Partial<ViewContent>} */
   let shown = {};
-  /** The surfaces of the subject, and those that are drawn: views may put others in their place. @type {(Surface | null)[]} */
+  /** The surfaces of the subject. @type {(Surface | null)[]} */
   const plain = [null, null];
-  /** @type {(Surface | null | undefined)[]} */
+  /** What is drawn on each side: a surface of the subject, and what the view makes of it. @type {({ from: Surface | null, by: Layer['surface'] } | undefined)[]} */
   let drawn = [];
   /** Number of the newest update; answers to older ones are discarded. */
   let newestUpdate = 0;
@@ -76,7 +77,8 @@ export function stagePanel(first) {
   const said = new Map();
 
   const divider = dividerOver('divider', ['input', 'result'], (share) => view?.divide(share));
-  const chosen = () => radios.find((radio) => radio.checked)?.value ?? 'shaded';
+  const choice = choiceOf('view', VIEW_LABELS, () => restart());
+  const chosen = () => choice.value;
 
   /** Whether the scene was asked for from above before it was there. */
   let startsFromAbove = false;
@@ -117,7 +119,7 @@ export function stagePanel(first) {
     element('space-after', HTMLElement).hidden = !isDivided;
     save.disabled = !subject.isSolved() || (view === null && !isFlat);
     for (const button of ends) button.disabled = !subject.isSolved();
-    for (const radio of radios) /** @type {HTMLElement} */ (radio.parentElement).hidden = !subject.offers(radio.value);
+    choice.offer(subject.offers);
   };
   /** The view's layer on a side; where the result is the input, what is found in it is shown there. @param {0 | 1} at */
   const layerOn = (at) => {
@@ -128,9 +130,11 @@ export function stagePanel(first) {
   const updateLayers = () => {
     for (const at of /** @type {const} */ ([0, 1])) {
       const layer = layerOn(at);
-      const surface = layer?.surface ?? plain[at];
-      if (surface !== drawn[at]) view?.setSurface(at, (drawn[at] = surface));
-      view?.setImage(at, layer?.image ?? null);
+      const [from, by] = [plain[at], layer?.surface];
+      if (drawn[at]?.from !== from || drawn[at]?.by !== by) {
+        drawn[at] = { from, by };
+        view?.setSurface(at, from && by ? by(from) : from);
+      }
       view?.setLines(at, layer?.lines ?? []);
     }
     view?.divide(divider.share);
@@ -210,10 +214,9 @@ export function stagePanel(first) {
   };
   /** Shows a view. @param {string} name */
   const choose = (name) => {
-    for (const radio of radios) radio.checked = radio.value === (subject.offers(name) ? name : 'shaded');
+    choice.set(subject.offers(name) ? name : 'shaded');
     restart();
   };
-  for (const radio of radios) radio.addEventListener('change', restart);
 
   /** Newest place of the pointer. */
   let pointer = { offsetX: 0, offsetY: 0 };

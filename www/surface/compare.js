@@ -1,21 +1,5 @@
 /** Differences of heights. */
 
-/** The lowest and the highest of the values above a limit. @param {Float64Array} values @param {number} [limit] */
-export function boundsOf(values, limit = -Infinity) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const value of values) {
-    if (value > limit && value < low) low = value;
-    if (value < Infinity && value > high) high = value;
-  }
-  return [low, high];
-}
-
-/** Difference between the highest and the lowest of the values. @param {Float64Array} values */
-export function rangeOf(values) {
-  const [low, high] = boundsOf(values);
-  return high - low;
-}
-
 /**
  * Root mean square of the height differences, over the pixels with data in both.
  * @param {ArrayLike<number>} heights

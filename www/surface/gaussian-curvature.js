@@ -1,8 +1,6 @@
-/** The total Gaussian curvature of a surface's patches, which is near 0 if they are developable, and the curvatures that are shown. */
-import { magnitudeQuantile } from './colours.js';
+/** The total Gaussian curvature of a surface's patches, which is near 0 if they are developable. */
 import { ROW_SPACING_RATIO } from './lattice.js';
 
-/** @typedef {import('../../pkg/types.js').Analysis} Analysis */
 /** @typedef {import('../../pkg/types.js').PatchMap} PatchMap */
 
 /**
@@ -39,14 +37,4 @@ export function totalGaussianCurvature({ rows, cols, labels, spacing }, { gaussi
   }
   const kept = Float64Array.from(found).sort().subarray(0, Math.floor(KEPT_VERTEX_SHARE * found.length));
   return kept.reduce((sum, value) => sum + value, 0) * step * spacing * spacing * ROW_SPACING_RATIO;
-}
-
-/** The parts of an analysis that are shown, as 32-bit floats. @param {Analysis} analysis */
-export function curvaturesOf({ rows, cols, spacing, origin, gaussian, kappa1, kappa2, summary }) {
-  return {
-    rows, cols, spacing, origin, summary,
-    gaussian: new Float32Array(gaussian),
-    kappa2: new Float32Array(kappa2),
-    medianKappa1: magnitudeQuantile([kappa1], 0.5),
-  };
 }

@@ -20,21 +20,13 @@
 /** Distance of two rows of the lattice, in spacings. */
 export const ROW_SPACING_RATIO = Math.sqrt(3) / 2;
 
-/**
- * Longest side of the bounding box of the vertices with a height.
- * @param {Pick<Lattice, 'cols' | 'spacing'> & { heights: ArrayLike<number> }} lattice
- */
-export function longestLatticeSide({ cols, spacing, heights }) {
-  const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
-  for (let i = 0; i < heights.length; i++) {
-    if (!Number.isFinite(heights[i])) continue;
-    const row = Math.floor(i / cols);
-    [(i % cols - 0.5 * (row % 2)) * spacing, row * ROW_SPACING_RATIO * spacing, heights[i]].forEach((value, k) => {
-      low[k] = Math.min(low[k], value);
-      high[k] = Math.max(high[k], value);
-    });
-  }
-  return Math.max(...high.map((value, k) => value - low[k]));
+/** Coordinates x, y, z of the vertices, from the even rows' first one; NaN without a height. @param {Pick<Lattice, 'cols' | 'spacing'> & { heights: ArrayLike<number> }} lattice */
+export function latticePositions({ cols, spacing, heights }) {
+  return Float64Array.from({ length: 3 * heights.length }, (_, i) => {
+    const [vertex, row] = [Math.floor(i / 3), Math.floor(i / 3 / cols)];
+    if (!Number.isFinite(heights[vertex])) return NaN;
+    return [(vertex % cols - 0.5 * (row % 2)) * spacing, -row * ROW_SPACING_RATIO * spacing, heights[vertex]][i % 3];
+  });
 }
 
 /**
@@ -63,30 +55,37 @@ export function gridOverLattice({ rows, cols, spacing, origin = [0, 0] }) {
 }
 
 /**
- * Interpolates values of a lattice at the pixels of a grid, linearly along and between rows; NaN outside and beside NaN.
+ * Interpolates values of a lattice linearly along and between rows.
  * @param {Lattice} lattice
  * @param {ArrayLike<number>} values
- * @param {Grid} grid
+ * @param {{ stride: number, part: number }} [layout] numbers for each vertex, and which of them is interpolated
+ * @returns {(x: number, y: number) => number} the value at a place; NaN outside and beside NaN
  */
-export function interpolateToGrid({ rows, cols, spacing, origin = [0, 0] }, values, { width, height, pixelSize, left, top }) {
-  const out = new Float64Array(width * height).fill(NaN);
+export function interpolatorOf({ rows, cols, spacing, origin = [0, 0] }, values, { stride, part } = { stride: 1, part: 0 }) {
   /** @param {number} row @param {number} x in spacings, from the even rows' first vertex */
   const along = (row, x) => {
     const place = clampToRange(x + 0.5 * (row % 2), cols);
     const col = Math.floor(place);
-    const from = row * cols + col;
-    return interpolate(values[from], values[from + 1], place - col);
+    const from = stride * (row * cols + col) + part;
+    return interpolate(values[from], values[from + stride], place - col);
   };
-  for (let i = 0, pixel = 0; i < height; i++) {
-    const down = clampToRange((origin[1] - top + (i + 0.5) * pixelSize) / (spacing * ROW_SPACING_RATIO), rows);
+  return (x, y) => {
+    const [across, down] = [(x - origin[0]) / spacing, clampToRange((origin[1] - y) / (spacing * ROW_SPACING_RATIO), rows)];
     const row = Math.floor(down);
-    for (let k = 0; k < width; k++, pixel++) {
-      if (Number.isNaN(down)) continue;
-      const x = (left + (k + 0.5) * pixelSize - origin[0]) / spacing;
-      out[pixel] = down === row ? along(row, x) : interpolate(along(row, x), along(row + 1, x), down - row);
-    }
-  }
-  return out;
+    if (Number.isNaN(row)) return NaN;
+    return down === row ? along(row, across) : interpolate(along(row, across), along(row + 1, across), down - row);
+  };
+}
+
+/**
+ * Interpolates values of a lattice at the pixels of a grid.
+ * @param {Lattice} lattice
+ * @param {ArrayLike<number>} values
+ * @param {Grid} grid
+ */
+export function interpolateToGrid(lattice, values, { width, height, pixelSize, left, top }) {
+  const at = interpolatorOf(lattice, values);
+  return Float64Array.from({ length: width * height }, (_, i) => at(left + (i % width + 0.5) * pixelSize, top - (Math.floor(i / width) + 0.5) * pixelSize));
 }
 
 /**
@@ -110,22 +109,11 @@ function interpolate(a, b, share) {
   return share > 1 - 1e-9 ? b : a * (1 - share) + b * share;
 }
 
-/**
- * The index of the vertex nearest to each pixel; -1 if it is more than a spacing away.
- * @param {Lattice} lattice
- * @param {Grid} grid
- */
-export function nearestVertices({ rows, cols, spacing, origin = [0, 0] }, { width, height, pixelSize, left, top }) {
-  const out = new Int32Array(width * height).fill(-1);
-  for (let i = 0, pixel = 0; i < height; i++) {
-    const down = (origin[1] - top + (i + 0.5) * pixelSize) / (spacing * ROW_SPACING_RATIO);
-    const row = Math.min(rows - 1, Math.max(0, Math.round(down)));
-    if (Math.abs(down - row) > 1) continue;
-    for (let k = 0; k < width; k++, pixel++) {
-      const across = (left + (k + 0.5) * pixelSize - origin[0]) / spacing + 0.5 * (row % 2);
-      const col = Math.min(cols - 1, Math.max(0, Math.round(across)));
-      if (Math.abs(across - col) <= 1) out[pixel] = row * cols + col;
-    }
-  }
-  return out;
+/** The index of the vertex nearest to a place; -1 if it is more than a spacing away. @param {Lattice} lattice @param {number} x @param {number} y */
+export function nearestVertex({ rows, cols, spacing, origin = [0, 0] }, x, y) {
+  const down = (origin[1] - y) / (spacing * ROW_SPACING_RATIO);
+  const row = Math.min(rows - 1, Math.max(0, Math.round(down)));
+  const across = (x - origin[0]) / spacing + 0.5 * (row % 2);
+  const col = Math.min(cols - 1, Math.max(0, Math.round(across)));
+  return Math.abs(down - row) <= 1 && Math.abs(across - col) <= 1 ? row * cols + col : -1;
 }

@@ -1,5 +1,6 @@
-/** Layers over a surface: images of coloured values, and lines. */
-import { nearestVertices } from './lattice.js';
+/** Layers over a surface: its colours, and lines. */
+import { interpolatorOf } from './lattice.js';
+import { interpolateAt, vertexColors } from './triangles.js';
 
 /** @import {Lattice} from './lattice.js' */
 /** @import {Place, Surface} from './scene.js' */
@@ -15,8 +16,7 @@ import { nearestVertices } from './lattice.js';
 /**
  * What a view shows on the input or on the result.
  * @typedef {object} Layer
- * @property {Surface} [surface] in place of the plain one
- * @property {HTMLCanvasElement} [image] colours of the heights' pixels, in place of steel
+ * @property {(plain: Surface) => Surface} [surface] what is drawn in place of the plain surface
  * @property {readonly Line[]} [lines]
  * @property {(place: Place) => string} [read] the value at a place, with its name and unit
  */
@@ -49,13 +49,29 @@ export function canvasFromPixels({ width, height }, pixels) {
   return canvasFromImage(new ImageData(new Uint8ClampedArray(/** @type {ArrayBuffer} */ (pixels.buffer)), width, height));
 }
 
-/**
- * The value at the vertex nearest to a place; NaN outside the lattice.
- * @param {Lattice & { values: ArrayLike<number> }} field
- * @param {number} x
- * @param {number} y
- */
-export function valueAt({ values, ...lattice }, x, y) {
-  const vertex = nearestVertices(lattice, { width: 1, height: 1, pixelSize: 1, left: x - 0.5, top: y + 0.5 })[0];
-  return vertex < 0 ? NaN : values[vertex];
+/** @typedef {{ at: (vertex: number, x: number, y: number) => number, read: (place: Place) => number }} Field values at the vertices that are drawn, and under the pointer */
+
+/** Colour of places without a value: that of steel. @type {Colour} */
+const NO_VALUE_COLOUR = [182, 187, 193];
+
+/** Values of a lattice, over heights that are drawn on any grid. @param {Lattice} lattice @param {ArrayLike<number>} values @returns {Field} */
+export function latticeField(lattice, values) {
+  const at = interpolatorOf(lattice, values);
+  return { at: (_, x, y) => at(x, y), read: ({ point: [x, y] }) => at(x, y) };
+}
+
+/** Values at the vertices of a mesh. @param {Pick<Mesh, 'triangles'>} mesh @param {ArrayLike<number>} values @returns {Field} */
+export function meshField(mesh, values) {
+  return { at: (vertex) => values[vertex], read: (place) => interpolateAt(mesh, place, (vertex) => values[vertex]) };
+}
+
+/** Colours a surface by values at its vertices. @param {Field['at']} at @param {(value: number) => Colour} colourOf @returns {NonNullable<Layer['surface']>} */
+export function colouredBy(at, colourOf) {
+  return (plain) => ({
+    ...plain,
+    colors: vertexColors(plain.positions.length / 3, (i) => {
+      const value = at(i, plain.positions[3 * i], plain.positions[3 * i + 1]);
+      return Number.isNaN(value) ? NO_VALUE_COLOUR : colourOf(value);
+    }),
+  });
 }

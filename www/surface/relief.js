@@ -55,7 +55,6 @@ export function reliefMesh({ width, height, heights, heightScale, extent }, isFa
   const [image, most] = [{ width, height, data: heights }, isFast ? MAX_SIDE_VERTICES : MAX_SLOW_SIDE_VERTICES];
   const { width: cols, height: rows, data } = Math.max(width, height) > most ? downsample(image, most) : image;
   const positions = new Float64Array(3 * cols * rows);
-  const uvs = new Float32Array(2 * cols * rows);
   const isHole = new Uint8Array(cols * rows);
   const triangles = new Uint32Array(6 * (cols - 1) * (rows - 1));
   // Holes are no higher or lower than the heights, so that the view fits these.
@@ -68,7 +67,6 @@ export function reliefMesh({ width, height, heights, heightScale, extent }, isFa
       const z = data[i] * heightScale;
       isHole[i] = Number(Number.isNaN(z));
       positions.set([extent.left + across * extent.width, extent.top - down * extent.height, isHole[i] ? filling : z], 3 * i);
-      uvs.set([across, 1 - down], 2 * i);
       if (row === 0 || col === 0) continue;
       const [a, b, c] = [i - cols - 1, i - cols, i - 1];
       for (const triangle of [[a, c, b], [b, c, i]]) {
@@ -78,7 +76,7 @@ export function reliefMesh({ width, height, heights, heightScale, extent }, isFa
       }
     }
   }
-  return corners > 0 ? { positions, uvs, triangles: triangles.subarray(0, corners) } : null;
+  return corners > 0 ? { positions, triangles: triangles.subarray(0, corners) } : null;
 }
 
 /**

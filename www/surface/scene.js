@@ -5,14 +5,14 @@ import { addPictureKeys, KEY_MOVE_SHARE, MAX_ZOOM } from './zoom.js';
 
 /** @import {Line} from './layer.js' */
 /** @typedef {readonly [number, number, number]} Vector */
-/** @typedef {{ low: Vector, high: Vector }} Box */
+/** @typedef {{ low: readonly number[], high: readonly number[] }} Box */
 
 /**
  * @typedef {object} Surface a mesh, or a cloud of points
  * @property {Float64Array | Float32Array} positions x, y, z of each vertex
  * @property {Uint32Array} triangles none for a cloud of points
  * @property {Float32Array} [colors] of the vertices, 0 to 1
- * @property {Float32Array} [uvs] places of the vertices in the image of `setImage` or in their texture, from its lower left corner
+ * @property {Float32Array} [uvs] places of the vertices in their texture, from its lower left corner
  * @property {readonly HTMLCanvasElement[]} [textures]
  * @property {Int32Array} [textureOf] index in `textures` for each triangle, −1 for none; by default 0
  */
@@ -40,8 +40,6 @@ const SHADOW_MAP_SIDE = 256;
 /** Angle of the first turn, in radians, and its duration, in milliseconds. */
 const FIRST_TURN_RADIANS = 0.7;
 const FIRST_TURN_MS = 1800;
-/** Colour of pixels without a value in an image on steel. */
-const STEEL_COLOUR = '#b6bbc1';
 /** Distance of the camera from the centre, and half of the visible depth range, in radii of the box. */
 const CAMERA_DISTANCE = 50;
 const VIEW_HALF_DEPTH = 8;
@@ -226,11 +224,10 @@ export class SceneView {
     this.drawSoon();
   }
 
-  /** Sets the surface on a side of the divider, without an image. @param {0 | 1} side @param {Surface | null} surface */
+  /** Sets the surface on a side of the divider. @param {0 | 1} side @param {Surface | null} surface */
   setSurface(side, surface) {
     this.#renderer.shadowMap.needsUpdate = true;
-    this.#replace(side, 'surface', surface && this.#createSurface(side, surface));
-    this.setImage(side, null);
+    this.#replace(side, 'surface', surface && this.#createSurface(surface));
   }
 
   /** The material of a kind, which is created once. @param {string} kind @param {() => any} create */
@@ -239,19 +236,19 @@ export class SceneView {
     return this.#materials.get(kind);
   }
 
-  /** @param {0 | 1} side @param {Surface} surface */
-  #createSurface(side, { positions, triangles, colors, uvs, textures, textureOf }) {
+  /** @param {Surface} surface */
+  #createSurface({ positions, triangles, colors, uvs, textures, textureOf }) {
     const three = this.#three;
     const geometry = new three.BufferGeometry();
     geometry.setAttribute('position', this.#scaled(positions));
     if (colors) geometry.setAttribute('color', new three.BufferAttribute(colors, 3));
     if (uvs) geometry.setAttribute('uv', new three.BufferAttribute(uvs, 2));
     const vertexColors = colors !== undefined;
-    if (triangles.length === 0) return new three.Points(geometry, this.#material(`points ${side} ${vertexColors}`, () => new three.PointsMaterial({ vertexColors, size: 2, sizeAttenuation: false })));
+    if (triangles.length === 0) return new three.Points(geometry, this.#material(`points ${vertexColors}`, () => new three.PointsMaterial({ vertexColors, size: 2, sizeAttenuation: false })));
     geometry.setIndex(new three.BufferAttribute(triangles, 1));
     const flatShading = this.#look.isFaceted ?? false;
     if (!flatShading) geometry.computeVertexNormals();
-    const plain = this.#material(`mesh ${side} ${vertexColors} ${flatShading}`, () => new three.MeshMatcapMaterial({
+    const plain = this.#material(`mesh ${vertexColors} ${flatShading}`, () => new three.MeshMatcapMaterial({
       vertexColors, flatShading, side: three.DoubleSide, matcap: this.#matcaps[vertexColors ? 1 : 0],
     }));
     const textured = textures?.map((image) => new three.MeshMatcapMaterial({
@@ -267,18 +264,6 @@ export class SceneView {
     const mesh = new three.Mesh(geometry, textured ? [plain, ...textured] : plain);
     mesh.castShadow = true;
     return mesh;
-  }
-
-  /** Covers a surface with an image; null takes it away. @param {0 | 1} side @param {HTMLCanvasElement | null} image */
-  setImage(side, image) {
-    const material = this.#sides[side].surface?.material;
-    if (!material || Array.isArray(material) || (material.userData.image ?? null) === image) return;
-    material.userData.image = image;
-    material.map?.dispose();
-    material.map = image && new this.#three.CanvasTexture(onSteel(image));
-    material.matcap = this.#matcaps[image || material.vertexColors ? 1 : 0];
-    material.needsUpdate = true;
-    this.drawSoon();
   }
 
   /** Sets the lines on a surface. @param {0 | 1} side @param {readonly Line[]} lines */
@@ -480,16 +465,4 @@ function hasGraphicsCard() {
   const name = String(probe?.getParameter(probe.getExtension('WEBGL_debug_renderer_info')?.UNMASKED_RENDERER_WEBGL ?? probe.RENDERER));
   probe?.getExtension('WEBGL_lose_context')?.loseContext();
   return !/swiftshader|llvmpipe|software|basic render/i.test(name);
-}
-
-/** An image with steel where it has no colour. @param {HTMLCanvasElement} image */
-function onSteel(image) {
-  const { width, height } = image;
-  const filled = Object.assign(document.createElement('canvas'), { width, height });
-  const context = filled.getContext('2d');
-  if (!context) return image;
-  context.fillStyle = STEEL_COLOUR;
-  context.fillRect(0, 0, width, height);
-  context.drawImage(image, 0, 0);
-  return filled;
 }

@@ -1,6 +1,6 @@
 /** Rasterises triangles, faster than a canvas draws many of them, and measures them. */
 
-/** @import {Box, Place} from './scene.js' */
+/** @import {Place} from './scene.js' */
 
 /**
  * Visits the pixels whose centres lie in a triangle, for each triangle. A pixel on a common edge is visited for both.
@@ -32,26 +32,25 @@ export function fillTriangles({ width, height }, triangles, places, visit) {
   }
 }
 
-/** The bounding rectangle of places in the plane. @param {ArrayLike<number>} places x, y of each */
-export function extentOf(places) {
-  let [left, right, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];
-  for (let i = 0; i < places.length; i += 2) {
-    left = Math.min(left, places[i]);
-    right = Math.max(right, places[i]);
-    bottom = Math.min(bottom, places[i + 1]);
-    top = Math.max(top, places[i + 1]);
+/**
+ * The bounding box of places, without coordinates that are NaN.
+ * @param {ArrayLike<number>} places
+ * @param {number} [dimensions] coordinates of each
+ */
+export function boxOf(places, dimensions = 3) {
+  const [low, high] = [Infinity, -Infinity].map((end) => Array.from({ length: dimensions }, () => end));
+  for (let i = 0; i < places.length; i++) {
+    const k = i % dimensions;
+    if (places[i] < low[k]) low[k] = places[i];
+    if (places[i] > high[k]) high[k] = places[i];
   }
-  return { left, top, width: right - left, height: top - bottom };
+  return { low, high };
 }
 
-/** The bounding box of positions. @param {ArrayLike<number>} positions x, y, z of each @returns {Box} */
-export function boxOf(positions) {
-  const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
-  for (let i = 0; i < positions.length; i++) {
-    low[i % 3] = Math.min(low[i % 3], positions[i]);
-    high[i % 3] = Math.max(high[i % 3], positions[i]);
-  }
-  return { low: /** @type {any} */ (low), high: /** @type {any} */ (high) };
+/** The sides of the bounding box of places. @param {ArrayLike<number>} places @param {number} [dimensions] */
+export function sidesOf(places, dimensions) {
+  const { low, high } = boxOf(places, dimensions);
+  return high.map((value, k) => value - low[k]);
 }
 
 /**

@@ -1,12 +1,16 @@
 /** Calls functions that take longer than a frame in a worker of the page (`worker.js`). */
+import { transfer, wrap } from '../../pkg/wire.js';
 
 /** @typedef {typeof import('./worker.js').tasks} Tasks */
 
-/** @type {Worker | null} */
-let worker = null;
-let lastId = 0;
-/** @type {Map<number, { resolve: (value: any) => void, reject: (error: Error) => void }>} */
-const pendingCalls = new Map();
+/** Started with the first call, and after a failure. @type {{ worker: Worker, tasks: any } | null} */
+let started = null;
+
+function start() {
+  const worker = new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
+  worker.addEventListener('error', () => (started = null));
+  return { worker, tasks: wrap(worker) };
+}
 
 /**
  * Calls a task in the worker. The arguments are copied.
@@ -28,24 +32,11 @@ export function callWorker(task, ...args) {
  * @returns {Promise<Awaited<ReturnType<Tasks[T]>>>}
  */
 export function transferToWorker(task, arrays, ...args) {
-  worker ??= startWorker();
-  const id = ++lastId;
-  worker.postMessage({ id, task, args }, arrays.map(({ buffer }) => /** @type {ArrayBuffer} */ (buffer)));
-  return new Promise((resolve, reject) => pendingCalls.set(id, { resolve, reject }));
-}
-
-function startWorker() {
-  const made = new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
-  made.addEventListener('message', ({ data: { id, value, error } }) => {
-    const asked = pendingCalls.get(id);
-    pendingCalls.delete(id);
-    if (error === undefined) asked?.resolve(value);
-    else asked?.reject(new Error(error));
-  });
-  made.addEventListener('error', () => {
-    worker = null;
-    for (const { reject } of pendingCalls.values()) reject(new Error('the page’s worker has failed'));
-    pendingCalls.clear();
-  });
-  return made;
+  const { worker, tasks } = (started ??= start());
+  const ended = new AbortController();
+  return new Promise((resolve, reject) => {
+    worker.addEventListener('error', () => reject(new Error('the page’s worker has failed')), { signal: ended.signal });
+    transfer(args[0], arrays.map(({ buffer }) => /** @type {ArrayBuffer} */ (buffer)));
+    tasks[task](...args).then(resolve, reject);
+  }).finally(() => ended.abort());
 }

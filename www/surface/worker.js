@@ -1,32 +1,24 @@
 /** The worker in which the page computes what it shows; `worker-client.js` calls it. */
+import { expose, transfer } from '../../pkg/wire.js';
 import { interpretFile } from '../import-interpretation.js';
 import { rmsError } from './compare.js';
 import { downsample } from './downsampling.js';
 import { interpolateToGrid } from './lattice.js';
 import { reducePhoto, decodePicture } from './photo-decoding.js';
-import { meshStrainImage, labelPixels, photoPixels, sheetStrainImage, valuePixels } from './colour-images.js';
-import { curvaturesOf, totalGaussianCurvature } from './gaussian-curvature.js';
+import { meshStrainImage, sheetStrainImage } from './colour-images.js';
+import { totalGaussianCurvature } from './gaussian-curvature.js';
 
-/** The tasks by name. The buffers of arrays in an answer are transferred. */
-export const tasks = {
-  curvaturesOf, meshStrainImage, interpolateToGrid, labelPixels, interpretFile, downsample,
-  reducePhoto, photoPixels, decodePicture, rmsError, totalGaussianCurvature, sheetStrainImage, valuePixels,
-};
+/** The tasks by name. */
+export const tasks = { meshStrainImage, interpolateToGrid, interpretFile, downsample, reducePhoto, decodePicture, rmsError, totalGaussianCurvature, sheetStrainImage };
 
-globalThis.addEventListener('message', async ({ data: { id, task, args } }) => {
-  /** @type {{ id: number, value?: unknown, error?: string }} */
-  let answer;
-  try {
-    const work = /** @type {(...args: unknown[]) => unknown} */ (tasks[/** @type {keyof typeof tasks} */ (task)]);
-    answer = { id, value: await work(...args) };
-  } catch (error) {
-    answer = { id, error: error instanceof Error ? error.message : String(error) };
-  }
-  globalThis.postMessage(answer, { transfer: [...new Set(buffersOf(answer))] });
-});
+// The buffers of arrays in an answer are transferred.
+expose(Object.fromEntries(Object.entries(tasks).map(([name, task]) => [name, async (/** @type {any[]} */ ...args) => {
+  const answer = await /** @type {(...args: any[]) => any} */ (task)(...args);
+  return Object(answer) === answer ? transfer(answer, [...new Set(buffersOf(answer))]) : answer;
+}])));
 
-/** @param {unknown} value @returns {Generator<ArrayBufferLike>} */
+/** @param {unknown} value @returns {Generator<ArrayBuffer>} */
 function* buffersOf(value) {
-  if (ArrayBuffer.isView(value)) yield value.buffer;
+  if (ArrayBuffer.isView(value)) yield /** @type {ArrayBuffer} */ (value.buffer);
   else if (value && Object.getPrototypeOf(value) === Object.prototype) for (const one of Object.values(value)) yield* buffersOf(one);
 }

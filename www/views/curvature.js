@@ -1,20 +1,16 @@
 /** The views of Gaussian curvature and of κ₂, with input and result on one colour scale. */
 import { number, numberAgainst, percent } from '../format.js';
 import { COLOUR_SCALE_QUANTILE, divergingColour, logarithmicScale, magnitudeQuantile } from '../surface/colours.js';
-import { gridOf } from '../surface/lattice.js';
-import { canvasFromPixels, valueAt } from '../surface/layer.js';
-import { interpolateAt, vertexColors } from '../surface/triangles.js';
-import { callWorker } from '../surface/worker-client.js';
+import { colouredBy } from '../surface/layer.js';
 import { figures } from './legend.js';
 
-/** @import {Curvatures} from '../analyses.js' */
-/** @import {Layer} from '../surface/layer.js' */
+/** @import {MeshAnalysis} from '../../pkg/types.js' */
+/** @import {Field} from '../surface/layer.js' */
 
-/** @typedef {{ gaussian: ArrayLike<number>, kappa2?: ArrayLike<number>, medianKappa1?: number, summary: { size: number, threshold: number, gaussianAbove: number, medianGaussian: number, medianKappa2?: number } }} Analysis */
+/** @typedef {Pick<MeshAnalysis, 'gaussian' | 'kappa1' | 'kappa2' | 'summary'>} Curvatures of heights or a mesh */
 /** @typedef {'gaussian' | 'kappa2'} Curvature */
-/** @typedef {{ limit: number, maximum: number, place: (value: number) => number, read: (value: number) => string }} Scale `limit`: end of the linear part, the curvature of a surface that bends once over its own size */
 
-/** @type {Record<Curvature, { symbol: string, title: string, power: number, facts: (analysis: Analysis, result: Analysis, limit: number, unit: string) => [string, string][] }>} */
+/** @type {Record<Curvature, { symbol: string, title: string, power: number, facts: (analysis: Curvatures, result: Curvatures, limit: number, unit: string) => [string, string][] }>} */
 const CURVATURES = {
   gaussian: {
     symbol: 'K', title: 'Gaussian curvature K', power: 2,
@@ -25,49 +21,40 @@ const CURVATURES = {
   },
   kappa2: {
     symbol: 'κ₂', title: 'κ₂, the smaller principal curvature,', power: 1,
-    facts: ({ summary: { medianKappa2 = NaN }, medianKappa1 = NaN }, _, limit, unit) => [
+    facts: ({ summary: { medianKappa2 }, kappa1 }, _, limit, unit) => [
       [`Median |κ₂| in ${unit}`, numberAgainst(medianKappa2 * limit, limit)],
-      ['Median |κ₁|, the larger one', numberAgainst(medianKappa1, limit)],
+      ['Median |κ₁|, the larger one', numberAgainst(magnitudeQuantile([kappa1], 0.5), limit)],
     ],
   },
 };
 
 /**
  * The view of a curvature.
- * @template {Analysis} A
+ * @template {Curvatures} A
  * @param {Curvature} what
  * @param {string | null | undefined} unit of lengths
  * @param {{ before: A, after: A }} analyses of the input and of the result
- * @param {(analysis: A, scale: Scale, side: 0 | 1) => Promise<Layer>} layerOf lays the values over a surface
- * @returns {Promise<ViewContent>}
+ * @param {(analysis: A) => Field} fieldOf lays the values over a surface
+ * @returns {ViewContent}
  */
-export async function curvature(what, unit, { before, after }, layerOf) {
+export function curvature(what, unit, { before, after }, fieldOf) {
   const { symbol, title, power, facts } = CURVATURES[what];
+  // The scale is linear up to the curvature of a surface that bends once over its own size.
   const limit = after.summary.size ** -power;
   const inverse = `1/${unit ?? 'unit'}${power === 2 ? '²' : ''}`;
-  const maximum = magnitudeQuantile([after[what] ?? [], before[what] ?? []], COLOUR_SCALE_QUANTILE);
-  const scale = logarithmicScale(limit, maximum);
-  const read = (/** @type {number} */ value) => (Number.isNaN(value) ? '' : `${symbol} ${numberAgainst(value, limit)} ${inverse}`);
+  const scale = logarithmicScale(limit, magnitudeQuantile([after[what], before[what]], COLOUR_SCALE_QUANTILE));
   const [inputs, results] = [before, after].map((analysis) => facts(analysis, after, limit, inverse));
+  /** @param {A} analysis */
+  const layerOf = (analysis) => {
+    const { at, read } = fieldOf(analysis);
+    return {
+      surface: colouredBy(at, (value) => divergingColour(scale.place(value))),
+      read: (/** @type {import('../surface/scene.js').Place} */ place) => (Number.isNaN(read(place)) ? '' : `${symbol} ${numberAgainst(read(place), limit)} ${inverse}`),
+    };
+  };
   return {
-    layers: [await layerOf(before, { limit, maximum, place: scale.place, read }, 0), await layerOf(after, { limit, maximum, place: scale.place, read }, 1)],
+    layers: [layerOf(before), layerOf(after)],
     colours: { title: `${title} in ${inverse}; figures: input → result`, scale },
     about: [figures(inputs.map(([name, value], i) => [name, `${value} → ${results[i][1]}`]))],
   };
 }
-
-/** Lays the values of a lattice over the heights. @param {Input} input @param {Curvature} what */
-export const overHeights = (input, what) => async (/** @type {Curvatures} */ { rows, cols, spacing, origin, [what]: values }, /** @type {Scale} */ { limit, maximum, read }) => {
-  const [grid, lattice] = [gridOf(input), { rows, cols, spacing, origin }];
-  return {
-    image: canvasFromPixels(grid, await callWorker('valuePixels', lattice, values, grid, limit, maximum)),
-    read: (/** @type {import('../surface/scene.js').Place} */ { point: [x, y] }) => read(valueAt({ ...lattice, values }, x, y)),
-  };
-};
-
-/** Colours the vertices of meshes. @param {readonly [Mesh, Mesh]} meshes input and result */
-export const overMeshes = (meshes) => async (/** @type {Analysis} */ { gaussian }, /** @type {Scale} */ { place, read }, /** @type {0 | 1} */ side) => ({
-  surface: { positions: meshes[side].positions, triangles: meshes[side].triangles, colors: vertexColors(gaussian.length, (i) => divergingColour(Number.isNaN(gaussian[i]) ? 0 : place(gaussian[i]))) },
-  // At a border only some corners have a value.
-  read: (/** @type {import('../surface/scene.js').Place} */ at) => read(interpolateAt(meshes[side], at, (vertex) => gaussian[vertex])),
-});

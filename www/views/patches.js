@@ -1,15 +1,10 @@
 /** The view of the patches, each in a colour, and of the creases between them, of heights and meshes. */
 import { make } from '../dom.js';
 import { areaUnit, count, number, percent } from '../format.js';
-import { toPixel, CREASE_COLOUR, toCss, patchColour, PATCH_COLOURS } from '../surface/colours.js';
-import { gridOf } from '../surface/lattice.js';
-import { canvasFromPixels, valueAt } from '../surface/layer.js';
-import { vertexColors } from '../surface/triangles.js';
-import { callWorker } from '../surface/worker-client.js';
+import { CREASE_COLOUR, toCss, patchColour, PATCH_COLOURS } from '../surface/colours.js';
+import { nearestVertex } from '../surface/lattice.js';
+import { colouredBy } from '../surface/layer.js';
 import { figures, key } from './legend.js';
-
-/** Colour of triangles without a patch. @type {Colour} */
-const UNLABELLED_COLOUR = [160, 160, 160];
 
 /**
  * Figures of patches, and a legend of those with a colour of their own.
@@ -29,40 +24,41 @@ function aboutPatches(patches, creases, unit) {
  * The patches and creases of heights.
  * @param {Input} input
  * @param {import('../../pkg/types.js').PatchMap} map
- * @returns {Promise<ViewContent>}
+ * @returns {ViewContent}
  */
-export async function patchesOfHeights(input, map) {
-  const { creases, rows, cols, spacing, origin } = map;
-  const grid = gridOf(input);
-  const colours = map.patches.map((_, i) => toPixel(patchColour(i)));
+export function patchesOfHeights({ unit }, map) {
+  const { creases, labels, patches } = map;
+  /** @param {number} x @param {number} y */
+  const labelAt = (x, y) => {
+    const vertex = nearestVertex(map, x, y);
+    // At the border the nearest vertex may have no label while a neighbour has one.
+    const near = vertex < 0 ? [] : [vertex, vertex - 1, vertex + 1];
+    return near.map((one) => labels[one]).find((label) => label >= 0) ?? NaN;
+  };
   return {
-    layers: [undefined, {
-      image: canvasFromPixels(grid, await callWorker('labelPixels', { rows, cols, spacing, origin }, map.labels, grid, colours)),
-      lines: creaseLines(creases),
-      read: ({ point: [x, y] }) => patchInWords(valueAt({ ...map, values: map.labels }, x, y)),
-    }],
-    about: aboutPatches(map.patches, creases.length, input.unit),
+    layers: [undefined, { surface: colouredBy((_, x, y) => labelAt(x, y), patchColour), lines: creaseLines(creases), read: ({ point: [x, y] }) => patchInWords(labelAt(x, y)) }],
+    about: aboutPatches(patches, creases.length, unit),
   };
 }
 
 /**
  * The patches of a mesh.
- * @param {Mesh} mesh
+ * @param {Pick<Mesh, 'unit'>} mesh
  * @param {Pick<import('../../pkg/types.js').MeshUnrolling, 'labels' | 'patches' | 'creases'>} found
  * @returns {ViewContent}
  */
-export function patchesOfMesh({ triangles, positions, unit }, { labels, patches, creases }) {
-  // Triangles share no corners here, since patches end between triangles.
-  const corners = {
-    triangles: Uint32Array.from(triangles, (_, i) => i),
-    positions: Float64Array.from({ length: 3 * triangles.length }, (_, i) => positions[3 * triangles[Math.floor(i / 3)] + (i % 3)]),
-    colors: vertexColors(triangles.length, (i) => {
-      const label = labels[Math.floor(i / 3)];
-      return label < 0 ? UNLABELLED_COLOUR : patchColour(label);
-    }),
-  };
+export function patchesOfMesh({ unit }, { labels, patches, creases }) {
+  const colour = colouredBy((corner) => (labels[Math.floor(corner / 3)] < 0 ? NaN : labels[Math.floor(corner / 3)]), patchColour);
   return {
-    layers: [undefined, { surface: corners, lines: creaseLines(creases), read: ({ triangle }) => patchInWords(labels[triangle]) }],
+    layers: [undefined, {
+      // Triangles share no corners here, since patches end between triangles.
+      surface: ({ triangles, positions }) => colour({
+        triangles: Uint32Array.from(triangles, (_, i) => i),
+        positions: Float64Array.from({ length: 3 * triangles.length }, (_, i) => positions[3 * triangles[Math.floor(i / 3)] + (i % 3)]),
+      }),
+      lines: creaseLines(creases),
+      read: ({ triangle }) => patchInWords(labels[triangle]),
+    }],
     about: aboutPatches(patches, creases.length, unit),
   };
 }

@@ -1,42 +1,31 @@
 /** The view of the photo of heights, the textures of a mesh, or their colours. */
-import { gridOf } from '../surface/lattice.js';
-import { canvasFromImage, canvasFromPixels } from '../surface/layer.js';
-import { callWorker } from '../surface/worker-client.js';
-
-/** Minimum length of a layer's longer side, in pixels. */
-const MIN_LAYER_PIXELS = 900;
+import { interpolatorOf } from '../surface/lattice.js';
+import { canvasFromImage } from '../surface/layer.js';
 
 /** Whether an input has a photo or colours. @param {Input} input */
 export function hasColours({ photo, lattice }) {
   return (photo !== undefined && lattice?.uvs !== undefined) || lattice?.colors !== undefined;
 }
 
-/**
- * The view of the photo of heights, or of their colours.
- * @param {Input} input
- * @returns {Promise<ViewContent>}
- */
-export async function photo({ lattice, ...input }) {
+/** The view of the photo of heights, or of their colours. @param {Input} input @returns {ViewContent} */
+export function photo({ lattice, photo }) {
   if (!lattice) return {};
-  const coarse = gridOf({ ...input, lattice });
-  const finer = Math.max(1, Math.ceil(MIN_LAYER_PIXELS / Math.max(coarse.width, coarse.height)));
-  const grid = { ...coarse, width: coarse.width * finer, height: coarse.height * finer, pixelSize: coarse.pixelSize / finer };
-  const { rows, cols, spacing, origin, uvs, colors } = lattice;
-  const image = input.photo?.image;
-  const seen = image && uvs ? { image: { width: image.width, height: image.height, data: image.data }, uvs } : { colors };
-  const layer = { image: canvasFromPixels(grid, await callWorker('photoPixels', { rows, cols, spacing, origin }, seen, grid)) };
+  const textures = photo && lattice.uvs && [canvasFromImage(photo.image)];
+  /** Numbers of the lattice at the vertices of a surface. @param {ArrayLike<number>} values @param {number} stride numbers for each vertex @param {Float64Array | Float32Array} positions */
+  const atVertices = (values, stride, positions) => {
+    const parts = Array.from({ length: stride }, (_, part) => interpolatorOf(lattice, values, { stride, part }));
+    return Float32Array.from({ length: (stride * positions.length) / 3 }, (_, i) => parts[i % stride](positions[3 * Math.floor(i / stride)], positions[3 * Math.floor(i / stride) + 1]));
+  };
+  /** @type {import('../surface/layer.js').Layer} */
+  const layer = { surface: (plain) => ({ ...plain, ...(textures ? { textures, uvs: atVertices(lattice.uvs ?? [], 2, plain.positions) } : { colors: atVertices(lattice.colors ?? [], 3, plain.positions) }) }) };
   return { layers: [layer, layer] };
 }
 
-/**
- * The view of the textures or colours of a mesh.
- * @param {Mesh} mesh
- * @param {Mesh} surface its result
- * @returns {Promise<ViewContent>}
- */
-export async function photoOfMesh({ positions, triangles, uvs, colors, textures, textureOf }, surface) {
+/** The view of the textures or colours of a mesh. @param {Mesh} mesh @returns {Promise<ViewContent>} */
+export async function photoOfMesh({ uvs, colors, textures, textureOf }) {
   const look = uvs && textures ? { uvs, textureOf, textures: await Promise.all(textures.map(canvasOf)) } : { colors };
-  return { layers: [{ surface: { positions, triangles, ...look } }, { surface: { positions: surface.positions, triangles, ...look } }] };
+  const layer = { surface: (/** @type {import('../surface/scene.js').Surface} */ plain) => ({ ...plain, ...look }) };
+  return { layers: [layer, layer] };
 }
 
 /** A canvas with a picture. @param {NonNullable<Mesh['textures']>[number]} picture */

@@ -13,6 +13,9 @@ const STRAIN_LIMITS = [0.01, 0.1];
 /** Longer side of a finished surface without a unit, or that cannot have its true size, in millimetres. */
 const DEFAULT_FINISHED_SIDE_MM = 180;
 
+/** Longer side of a drawing that is shown, in widths of its lines. */
+const LINES_ACROSS = 400;
+
 /** Longer side of a result seen from above, in the unit of its input. @param {Result} result */
 export function longerSide({ input: { width, height, pixelSize } }) {
   return Math.max(width, height) * pixelSize;
@@ -115,11 +118,10 @@ export function sheetFigures({ width, height, summary: { cutLength, mountainLeng
  */
 export async function drawingImage(api, drawing) {
   const image = new Image();
-  // On paper lines are a fifth of a millimetre wide: too thin to be seen where a large drawing is shown small. Here they are as many
-  // pixels wide on the screen, and dashes as long, whatever the scale.
-  const svg = new TextDecoder().decode(await api.writeSvg(drawing)).replace(/stroke-width="[^"]*"/g, 'stroke-width="1"')
-    .replace(/stroke-dasharray="([^"]*)"/g, (_, dashes) => `stroke-dasharray="${dashes.split(' ').map((/** @type {string} */ dash) => 3 * Number(dash)).join(' ')}"`)
-    .replaceAll('<path ', '<path vector-effect="non-scaling-stroke" ');
+  // On paper lines are a fifth of a millimetre wide: too thin to be seen where a large drawing is shown small.
+  const width = Math.max(drawing.width, drawing.height) / LINES_ACROSS;
+  const svg = new TextDecoder().decode(await api.writeSvg(drawing)).replace(/stroke-width="[^"]*"/g, `stroke-width="${width}"`)
+    .replace(/stroke-dasharray="([^"]*)"/g, (_, dashes) => `stroke-dasharray="${dashes.split(' ').map((/** @type {string} */ dash) => 3 * Number(dash) * width).join(' ')}"`);
   const address = URL.createObjectURL(new Blob([svg], { type: 'image/svg+xml' }));
   try {
     image.src = address;

@@ -46,19 +46,20 @@ export function filesPanel(session, mode, source, page) {
     } : undefined);
   };
 
-  /** The mode of the page before the heights that are being opened. @type {Mode} */
-  let earlier = 'home';
+  /** The mode of the page before the files that are being opened as heights, and how many openings are under way. @type {{ mode: Mode, openings: number }} */
+  const earlier = { mode: 'home', openings: 0 };
   /** @param {readonly File[]} files @param {boolean} [arePages] whether pictures were opened as pages */
   const open = async (files, arePages = mode.now === 'photo') => {
     const { to, files: taken, left } = await routeFiles(files, arePages);
     if (to === 'none') return showNotice(FILE_WORDS.unread(files[0].name, unreadableKindInWords(files[0])));
     const leftOut = left.length > 0 ? FILE_WORDS.leftOut(namesOfLeft(left), to === 'heights' && kindByName(taken[0]) !== 'mesh') : '';
     if (to === 'photos') return openPhotos(taken, leftOut, arePages);
-    if (mode.now !== 'heights' || !session.isOpening) earlier = mode.now;
+    if (mode.now !== 'heights' || earlier.openings === 0) earlier.mode = mode.now;
     mode.show('heights');
-    if (!(await source.openFiles(taken))) {
+    earlier.openings++;
+    if (!(await source.openFiles(taken).finally(() => earlier.openings--))) {
       // What was opened there before is not what was asked for, but something else may be being opened by now.
-      if (!session.isOpening && mode.now === 'heights') mode.show(earlier);
+      if (!session.isOpening && mode.now === 'heights') mode.show(earlier.mode);
       return;
     }
     // The start of a run hides the notice, so it is shown afterwards.

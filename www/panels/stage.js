@@ -233,7 +233,10 @@ export function stagePanel(first) {
   for (const one of [canvas, flat.canvas]) one.addEventListener('pointerleave', () => (reading.textContent = ''));
 
   element('from-above', HTMLButtonElement).addEventListener('click', () => (view ? view.lookDown() : (startsFromAbove = true)));
-  element('at-an-angle', HTMLButtonElement).addEventListener('click', () => view?.look());
+  element('at-an-angle', HTMLButtonElement).addEventListener('click', () => {
+    startsFromAbove = false;
+    view?.look();
+  });
   save.addEventListener('click', async () => {
     const isFlat = shown.flat !== undefined;
     if (!isFlat) view?.draw(SAVED_RATIO * devicePixelRatio);

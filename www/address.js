@@ -1,7 +1,7 @@
 /** Encoding of the page's state in the fragment of its address (after the #), for links, the history and reloads. */
 import { shortLambda } from './format.js';
 import { ENERGIES, VIEW_WORDS } from './messages.js';
-import { noDataOf } from './no-data.js';
+import { noDataOf } from './import-interpretation.js';
 
 /**
  * @typedef {object} State
@@ -71,17 +71,18 @@ export function stateOf(hash) {
   const view = parameters.get('view') ?? undefined;
   const name = parameters.get('example');
   const [card] = [...parameters.entries()].find(([, value]) => value === '') ?? [];
-  const scales = ['pixelSize', 'heightScale'].filter((scale) => Number(parameters.get(scale))).map((scale) => [scale, Number(parameters.get(scale))]);
-  const noData = parameters.has('noData') ? noDataOf(parameters.get('noData') ?? '') : undefined;
+  const scales = ['pixelSize', 'heightScale'].map((scale) => [scale, Number(parameters.get(scale))]).filter(([, value]) => value);
+  const stored = { ...Object.fromEntries(scales), noData: noDataOf(parameters.get('noData') ?? '') };
+  const [whole, photo, unkept] = ['whole', 'photo', 'unkept'].map((flag) => parameters.get(flag) === '1' || undefined);
   return {
     card,
     example: name ? { name, size: positive('size') ?? 400, noise: Math.max(0, Number(parameters.get('noise') ?? 0.02)) || 0 } : undefined,
     file: positive('file'),
-    stored: scales.length > 0 || noData !== undefined ? { ...Object.fromEntries(scales), noData } : undefined,
+    stored: Object.values(stored).some((value) => value !== undefined) ? stored : undefined,
     settings,
-    whole: parameters.get('whole') === '1' || undefined,
-    photo: parameters.get('photo') === '1' || undefined,
-    unkept: parameters.get('unkept') === '1' || undefined,
+    whole,
+    photo,
+    unkept,
     view: view && Object.hasOwn(VIEW_WORDS, view) ? view : undefined,
   };
 }

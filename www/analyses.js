@@ -1,7 +1,8 @@
 /** Analyses of a result: curvatures, patches, rulings, unrolling and patterns, in parallel to the next run. */
 import { downsample } from './surface/downsampling.js';
 import { MAX_SHEET_CURVATURE_RADIANS } from './surface/gaussian-curvature.js';
-import { transferToWorker, callWorker } from './surface/worker-client.js';
+import { callWorker } from './surface/worker-client.js';
+import { transfer } from '../pkg/wire.js';
 import { Tasks } from './worker-task.js';
 import { heightsOf } from './session.js';
 
@@ -12,19 +13,7 @@ const PATTERN_SIDE_PIXELS = 450;
 /** Largest ratio of a lattice's longer side to `PATTERN_SIDE_PIXELS` for which the lattice is not reduced. */
 const MAX_UNREDUCED_RATIO = 1.2;
 
-export class Analyses {
-  #tasks;
-
-  /** @param {Api} api */
-  constructor(api) {
-    this.#tasks = new Tasks(api.DevelopableWorker);
-  }
-
-  /** Cancels all running tasks; their promises reject. */
-  stop() {
-    this.#tasks.stop();
-  }
-
+export class Analyses extends Tasks {
   /**
    * Curvatures of the input and of the result, on the same lattice.
    * @param {Result} result
@@ -33,7 +22,7 @@ export class Analyses {
   async curvatures({ input, surface }) {
     const { spacing } = surface;
     const [before, after] = await Promise.all([
-      this.#tasks.answer(input, `curvatures ${spacing}`, (worker) =>
+      this.answer(input, `curvatures ${spacing}`, (worker) =>
         worker.analyze(heightsOf(input), input.lattice ? {} : { spacing })),
       this.curvature(surface),
     ]);
@@ -42,12 +31,12 @@ export class Analyses {
 
   /** @param {Surface} surface */
   curvature(surface) {
-    return this.#tasks.answer(surface, 'curvatures', (worker) => worker.analyze(surface));
+    return this.answer(surface, 'curvatures', (worker) => worker.analyze(surface));
   }
 
   /** @param {Result} result */
   patches({ surface }) {
-    return this.#tasks.answer(surface, 'patches', (worker) => worker.patches(surface));
+    return this.answer(surface, 'patches', (worker) => worker.patches(surface));
   }
 
   /**
@@ -61,7 +50,7 @@ export class Analyses {
 
   /** @param {Result} result */
   rulings({ surface }) {
-    return this.#tasks.answer(surface, 'rulings', (worker) => worker.rulings(surface));
+    return this.answer(surface, 'rulings', (worker) => worker.rulings(surface));
   }
 
   /**
@@ -70,9 +59,9 @@ export class Analyses {
    * @param {Tell} tell
    */
   unroll({ surface }, tell) {
-    return this.#tasks.answer(surface, 'sheet', async (worker) => {
+    return this.answer(surface, 'sheet', async (worker) => {
       const { triangles, places, stretches, report, verdict } = await worker.unroll(surface, { onProgress: ({ fraction }) => tell({ fraction, task: 'unrolling' }) });
-      const picture = await transferToWorker('sheetStrainImage', [triangles, places, stretches], triangles, places, stretches);
+      const picture = await callWorker('sheetStrainImage', transfer(triangles, [triangles, places, stretches].map(({ buffer }) => buffer)), places, stretches);
       return { picture, report, verdict };
     });
   }
@@ -87,7 +76,7 @@ export class Analyses {
     const { surface } = result;
     const { width, height } = result.image;
     const source = Math.max(width, height) < MAX_UNREDUCED_RATIO * PATTERN_SIDE_PIXELS ? surface : downsample(result.image, PATTERN_SIDE_PIXELS);
-    return this.#tasks.answer(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(source, { ...options, onProgress: ({ fraction }) => tell({ fraction, task: 'cutting' }) }));
+    return this.answer(surface, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(source, { ...options, onProgress: ({ fraction }) => tell({ fraction, task: 'cutting' }) }));
   }
 }
 

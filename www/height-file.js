@@ -2,15 +2,9 @@
 import { runInWorker } from './worker-task.js';
 import { stemOf } from './file-kinds.js';
 import { readPicture } from './pixels.js';
-import { transferToWorker } from './surface/worker-client.js';
-import { noDataOptions } from './no-data.js';
-
-/** Error: the file is a picture in colour, which is a photo and has no heights. */
-export class ColourPictureError extends Error {
-  constructor() {
-    super('it is in colour, and no heights follow from that. A photo alone is made flat under “A photo of a page”; with its depths, open both together');
-  }
-}
+import { transfer } from '../pkg/wire.js';
+import { callWorker } from './surface/worker-client.js';
+import { noDataOptions } from './import-interpretation.js';
 
 /**
  * Reads a file of heights as an input.
@@ -25,14 +19,11 @@ export async function readInput(api, file, signal, { array, noData } = {}, photo
   const { names, read } = await runInWorker(api, signal, async (reader) => {
     const names = await heightArrayNames(reader, file);
     const options = { name: file.name, array: names.length > 1 ? array ?? names[0] : undefined, ...noDataOptions(noData) };
-    const read = await reader.read(file, options).catch((error) => {
-      throw error instanceof Error && /colour/.test(error.message) ? new ColourPictureError() : error;
-    });
-    return { names, read };
+    return { names, read: await reader.read(file, options) };
   });
   const { format, dataType, assumptions } = read;
   const photo = photoFile && { name: photoFile.name, image: await readPicture(photoFile) };
-  const input = await transferToWorker('interpretFile', [read.data], read, noData);
+  const input = await callWorker('interpretFile', transfer(read, [read.data.buffer]), noData);
   return {
     ...input,
     name: stemOf(file) || 'heights',

@@ -1,9 +1,10 @@
 /** Interpretation of a file of numbers as heights: guessed when it is opened, and changed by the user afterwards. */
-import { number } from './format.js';
+import { number, numberIn } from './format.js';
 import { GUESS_WORDS } from './messages.js';
 import { sidesOf } from './surface/triangles.js';
 
 /** @typedef {Awaited<ReturnType<Api['read']>>} Read */
+/** @typedef {number | 'none'} NoData value that is no data, or that none but NaN is */
 
 /**
  * Contents of a file, and how they are interpreted.
@@ -72,4 +73,15 @@ export function spanInWords({ stored, width, height, pixelSize, heightScale, uni
   const isMap = unit === 'm' && Math.max(...sides) >= 1e4;
   const [wide, deep] = sides.map((side) => number(isMap ? side / 1000 : side));
   return `${wide} × ${deep} ${isMap ? 'km' : unit ?? 'units'}, ${number((stored?.range ?? NaN) * Math.abs(heightScale))} ${unit ?? 'units'} high.`;
+}
+
+/** What a text gives as no data; nothing where it is no number. @param {string} text @returns {NoData | undefined} */
+export function noDataOf(text) {
+  const [word, value] = [text.trim(), numberIn(text)];
+  return word === 'none' ? word : Number.isNaN(value) ? undefined : value;
+}
+
+/** The options of `read` that say what is no data: without them, the reader decides. @param {NoData} [noData] */
+export function noDataOptions(noData) {
+  return noData === undefined ? {} : { assumeNoData: false, ...(noData !== 'none' && { noData }) };
 }

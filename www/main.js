@@ -4,10 +4,9 @@ import { Analyses } from './analyses.js';
 import { connect } from './api.js';
 import { element } from './dom.js';
 import { detailsPanel } from './panels/details.js';
-import { watchDrops } from './panels/drop.js';
 import { filesPanel } from './panels/files.js';
 import { galleryPanel } from './panels/gallery.js';
-import { watchIncoming } from './panels/incoming.js';
+import { watchDrops, watchIncoming } from './panels/incoming.js';
 import { headlinePanel } from './panels/headline.js';
 import { homePanel } from './panels/home.js';
 import { addressSyncPanel } from './panels/address-sync.js';
@@ -32,7 +31,7 @@ async function start() {
   // The doors, and what is behind the other two, need no solver.
   const { photo, whole } = stateOf(location.hash);
   const started = isStart(location.hash) || photo || whole ? undefined : session.start();
-  const analyses = new Analyses(session.api);
+  const analyses = new Analyses(session.api.DevelopableWorker);
   const meshFit = new MeshFit(session.api);
   const { stage, heights } = heightsPanel(session, analyses);
   const { adopt } = settingsPanel(session, meshFit);

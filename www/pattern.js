@@ -138,15 +138,3 @@ export function assemblyModel({ assembly }) {
   if (!assembly) throw new Error('nothing is said of how it is put together');
   return assembly.model;
 }
-
-/**
- * A picture of the assembled sheets, seen at an angle, with their numbers: a PNG file.
- * @param {Drawing} drawing
- * @param {'y' | 'z'} up the axis that points upwards
- * @returns {Promise<Uint8Array<ArrayBuffer>>}
- */
-export async function assemblyPicture(drawing, up) {
-  const { builtPicture } = await import('./surface/built-picture.js');
-  const png = await (await builtPicture(assemblyModel(drawing), up)).convertToBlob({ type: 'image/png' });
-  return new Uint8Array(await png.arrayBuffer());
-}

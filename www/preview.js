@@ -5,8 +5,9 @@
  * The coarsest solve always finishes, so that each of many requests in a row yields a preview; a finer one is aborted by
  * a newer request.
  */
-import { downsample, PREVIEW_SIDE_PIXELS } from './surface/downsampling.js';
+import { downsample } from './surface/downsampling.js';
 import { callWorker } from './surface/worker-client.js';
+import { WORKER_IDLE_MS } from './worker-task.js';
 
 /** @import {OpenSolver} from '../pkg/index.js' */
 /** @typedef {{ width: number, height: number, pixelSize: number, data: ArrayLike<number> }} Image */
@@ -14,9 +15,7 @@ import { callWorker } from './surface/worker-client.js';
 /** @typedef {{ input: Input, solver: Promise<OpenSolver> }} PreviewLevel */
 
 /** Longer sides of the lattices from coarse to fine, in pixels: the first takes about 30 ms, each further one four times as long. */
-const PREVIEW_SIDES_PIXELS = [96, 192, PREVIEW_SIDE_PIXELS];
-/** Idle time after which the worker is disposed of, in milliseconds. */
-const WORKER_IDLE_MS = 10_000;
+const PREVIEW_SIDES_PIXELS = [96, 192, 384];
 /** Duality gap at which a preview stops. */
 const PREVIEW_GAP = 0.1;
 
@@ -143,7 +142,7 @@ export class PreviewSolver {
 
   /** Reduces the heights of an input to fewer pixels. @param {Input} input @param {number} side longer side in pixels */
   async #reducedTo({ width, height, data, pixelSize, heightScale }, side) {
-    if (this.#reduced?.data !== data) this.#reduced = { data, heights: callWorker('downsample', { width, height, data, pixelSize }, PREVIEW_SIDE_PIXELS) };
+    if (this.#reduced?.data !== data) this.#reduced = { data, heights: callWorker('downsample', { width, height, data, pixelSize }, Math.max(...PREVIEW_SIDES_PIXELS)) };
     const { heights: reduced } = this.#reduced;
     // It is tried again after a failure.
     reduced.catch(() => (this.#reduced = null));

@@ -1,5 +1,5 @@
 /** The solve that is shown, as a line for the command and as code for the package. */
-import { noDataOptions } from './no-data.js';
+import { noDataOptions } from './import-interpretation.js';
 import { spacingOf } from './session.js';
 
 /** Whether the heights are those of a file or an example. @param {Input} input */

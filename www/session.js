@@ -7,10 +7,11 @@
  */
 import { Events } from './events.js';
 import { PreviewSolver } from './preview.js';
-import { derivedOf } from './surface/derived-data.js';
+import { gridOf } from './surface/lattice.js';
+import { callWorker } from './surface/worker-client.js';
+import { WORKER_IDLE_MS } from './worker-task.js';
 
 /** @import {Preview} from './preview.js' */
-/** @import {Accuracy, Image} from './surface/derived-data.js' */
 /** @import {Heightfield, SampledMesh, Surface} from '../pkg/types.js' */
 /** @import {OpenSolver} from '../pkg/index.js' */
 
@@ -49,6 +50,8 @@ import { derivedOf } from './surface/derived-data.js';
  * @property {number} [occlusionThreshold] without it, the surface is torn nowhere
  */
 
+/** @typedef {{ width: number, height: number, pixelSize: number, data: Float64Array }} Image */
+/** @typedef {{ before: number, after: number }} Accuracy errors of the heights of input and result, root mean square */
 /** @typedef {{ input: Input, settings: Settings, surface: Surface, image: Image, accuracy: Accuracy | null }} Result `image`: heights at the input's pixels; `accuracy`: errors, where the truth is known */
 /** @typedef {'starting' | 'idle' | 'running' | 'failed'} Phase */
 
@@ -71,8 +74,6 @@ import { derivedOf } from './surface/derived-data.js';
 const MIN_PREVIEWED_PIXELS = 150 ** 2;
 /** Minimum number of pixels of a large input, whose solver holds so much memory that it is disposed of when idle. */
 const MIN_LARGE_INPUT_PIXELS = 500 ** 2;
-/** Idle time after which the solver of a large input is disposed of, in milliseconds. */
-const LARGE_SOLVER_IDLE_MS = 5000;
 /** Time that a cancelled run of a large input has to return its best surface, in milliseconds. */
 const CANCEL_TIMEOUT_MS = 150;
 /** @extends {Events<SessionEvents>} */
@@ -354,7 +355,7 @@ export class Session extends Events {
 
   /** Frees the memory of a large input's solver after it has been idle for a while. @param {Input} input */
   #disposeWhenIdle(input) {
-    if (isLarge(input)) this.#idleTimer = window.setTimeout(() => this.#disposeWorker(), LARGE_SOLVER_IDLE_MS);
+    if (isLarge(input)) this.#idleTimer = window.setTimeout(() => this.#disposeWorker(), WORKER_IDLE_MS);
   }
 
   /** Disposes of the solver: the next run has no warm start. */
@@ -431,4 +432,19 @@ export function spacingOf({ pixelSize, lattice }, coarsening) {
 /** Converts an input to a height image or heightfield of the package. @param {Input} input */
 export function heightsOf({ width, height, data, pixelSize, heightScale, lattice }) {
   return lattice ?? { width, height, pixelSize, heightScale, data };
+}
+
+/**
+ * The image of a surface at the input's pixels, or at those that show the input's lattice, and the errors against the truth, if that is known.
+ * @param {Input} input
+ * @param {Surface} surface
+ * @returns {Promise<{ image: Image, accuracy: Accuracy | null }>}
+ */
+async function derivedOf(input, { image: given, rows, cols, spacing, origin, heights }) {
+  const { truth, heightScale } = input;
+  const grid = gridOf(input);
+  const image = given ?? { width: grid.width, height: grid.height, pixelSize: grid.pixelSize, data: await callWorker('interpolateToGrid', { rows, cols, spacing, origin }, heights, grid) };
+  if (!truth) return { image, accuracy: null };
+  const [before, after] = await Promise.all([callWorker('rmsError', input.data, heightScale, truth, heightScale), callWorker('rmsError', image.data, 1, truth, heightScale)]);
+  return { image, accuracy: { before, after } };
 }

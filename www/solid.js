@@ -3,6 +3,7 @@
 import { make } from './dom.js';
 import { between, fieldsOf } from './fields.js';
 import { FORMAT_WORDS, SOLID_WORDS } from './messages.js';
+import { offerToSave } from './panels/save-dialog.js';
 import { suggestedSide } from './pattern.js';
 import { borderEdges, boxOf, sidesOf } from './surface/triangles.js';
 import { zip } from './zip.js';
@@ -87,16 +88,18 @@ async function threeMf({ positions, triangles }) {
 }
 
 /**
- * A surface as formats of the save dialog, solids among them, and the fields for the size of these.
+ * Offers a surface as a 3D file, solids among them, with fields for the size of these.
+ * @param {Api} api
  * @param {object} given
+ * @param {string} given.stem file name without its ending
  * @param {import('../pkg/types.js').Surface | Mesh} given.surface
  * @param {Float64Array} given.positions of its vertices
  * @param {string | null} [given.unit]
  * @param {boolean} given.onBase
  * @param {(worker: PackageWorker) => Promise<Pick<Mesh, 'positions' | 'triangles'>>} given.mesh
- * @returns {{ formats: Format[], fields: HTMLElement, onChange: (act: () => void) => void }}
+ * @param {readonly Format[]} [given.further] further formats
  */
-export function surfaceFormats({ surface, positions, unit, onBase, mesh }) {
+export function offerSurface(api, { stem, surface, positions, unit, onBase, mesh, further = [] }) {
   const fields = fieldsOf({
     'solid-side': { label: 'Longest side when printed, mm', value: String(suggestedSide(Math.max(...sidesOf(positions)), unit)), range: between(0.1, Infinity, 'of at least 0.1') },
     'solid-thickness': { label: onBase ? 'Base at its thinnest, mm' : 'Thickness, mm', value: '2', range: between(0.1, Infinity, 'of at least 0.1') },
@@ -112,7 +115,8 @@ export function surfaceFormats({ surface, positions, unit, onBase, mesh }) {
     return made;
   };
   const note = () => (wasOpen && !onBase ? SOLID_WORDS.shell : '');
-  return {
+  const { renew } = offerToSave(api, {
+    title: '3D file', stem, unit, extra: [box],
     formats: [
       { value: 'obj', name: 'OBJ', words: FORMAT_WORDS.obj, type: 'model/obj', write: (worker) => worker.writeObj(surface) },
       { value: 'stl', name: 'STL', words: FORMAT_WORDS.stl, type: 'model/stl', write: (worker) => worker.writeStl(surface) },
@@ -120,8 +124,8 @@ export function surfaceFormats({ surface, positions, unit, onBase, mesh }) {
       { value: 'solid.3mf', name: 'Solid 3MF', words: SOLID_WORDS.words, type: 'model/3mf', note, write: async (worker) => threeMf(await solid(worker)) },
       { value: 'glb', name: 'GLB', words: FORMAT_WORDS.glb, type: 'model/gltf-binary', write: (worker) => worker.writeGlb(surface) },
       { value: 'ply', name: 'PLY', words: FORMAT_WORDS.ply, type: 'model/ply', write: (worker) => worker.writePly(surface) },
+      ...further,
     ],
-    fields: box,
-    onChange: (act) => box.addEventListener('change', act),
-  };
+  });
+  box.addEventListener('change', renew);
 }

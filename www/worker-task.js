@@ -23,8 +23,8 @@ export async function runInWorker(api, signal, task) {
   }
 }
 
-/** Idle time after which the worker of tasks is disposed of, in milliseconds. */
-const WORKER_IDLE_MS = 2000;
+/** Idle time after which a worker is disposed of, in milliseconds. */
+export const WORKER_IDLE_MS = 5000;
 
 /** Tasks that share a worker, which is disposed of when they are cancelled and when it is idle; and their answers, each found once. */
 export class Tasks {

@@ -1,11 +1,9 @@
 /** Inputs of the gallery: height images with noise or steps. */
 
 import { sidesOf } from '../surface/triangles.js';
+import { randomAt } from './shapes.js';
 
 /** @import {Heights} from './shapes.js' */
-
-/** Seed of the noise. */
-const NOISE_SEED = 17;
 
 /**
  * An image of heights, with defects.
@@ -21,9 +19,8 @@ const NOISE_SEED = 17;
 export function sampledInput(name, heights, size, { noise = 0, voxels, known = noise > 0 || voxels !== undefined } = {}) {
   const truth = image(heights, size);
   const given = voxels ? image(voxelHeights(heights, voxels), size) : truth;
-  const random = randomGenerator(NOISE_SEED);
   const [range] = sidesOf(truth, 1);
-  const data = given.map((z) => z + noise * range * normalSample(random));
+  const data = given.map((z, i) => z + noise * range * normalSample(i));
   return { name, width: size, height: size, data, pixelSize: 1 / size, heightScale: 1, ...(known && { truth }) };
 }
 
@@ -38,18 +35,7 @@ function voxelHeights(heights, count) {
   return (x, y) => Math.round(heights(middle(x), middle(y)) * count) / count;
 }
 
-/** A pseudo-random generator of numbers between 0 and 1. @param {number} seed */
-function randomGenerator(seed) {
-  let state = seed >>> 0;
-  return () => {
-    state = (state + 0x6d2b79f5) >>> 0;
-    let mixed = Math.imul(state ^ (state >>> 15), state | 1);
-    mixed ^= mixed + Math.imul(mixed ^ (mixed >>> 7), mixed | 61);
-    return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
-  };
-}
-
-/** A normally distributed number (Box-Muller transform). @param {() => number} random */
-function normalSample(random) {
-  return Math.sqrt(-2 * Math.log(1 - random())) * Math.cos(2 * Math.PI * random());
+/** A normally distributed number, by two random ones (Box-Muller transform). @param {number} i which one */
+function normalSample(i) {
+  return Math.sqrt(-2 * Math.log(1 - randomAt(i, 1))) * Math.cos(2 * Math.PI * randomAt(i, 2));
 }

@@ -116,11 +116,12 @@ export function terrain(x, y) {
 function valueNoise(x, y) {
   const [i, j] = [Math.floor(x), Math.floor(y)];
   const [u, v] = [x - i, y - j].map((t) => t * t * (3 - 2 * t));
-  /** @param {number} a @param {number} b */
-  const at = (a, b) => {
-    let hash = Math.imul(a, 374761393) + Math.imul(b, 668265263);
-    hash = Math.imul(hash ^ (hash >>> 13), 1274126177);
-    return ((hash ^ (hash >>> 16)) >>> 0) / 2 ** 32;
-  };
-  return (at(i, j) * (1 - u) + at(i + 1, j) * u) * (1 - v) + (at(i, j + 1) * (1 - u) + at(i + 1, j + 1) * u) * v;
+  return (randomAt(i, j) * (1 - u) + randomAt(i + 1, j) * u) * (1 - v) + (randomAt(i, j + 1) * (1 - u) + randomAt(i + 1, j + 1) * u) * v;
+}
+
+/** A pseudo-random number between 0 and 1, which is the same for the same integers. @param {number} a @param {number} b */
+export function randomAt(a, b) {
+  let hash = Math.imul(a, 374761393) + Math.imul(b, 668265263);
+  hash = Math.imul(hash ^ (hash >>> 13), 1274126177);
+  return ((hash ^ (hash >>> 16)) >>> 0) / 2 ** 32;
 }

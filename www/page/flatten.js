@@ -1,5 +1,5 @@
 /** Flattens pages in a worker: the reduced photo for previews while edges are moved, and by its result the whole photo for saving. */
-/** @typedef {import('../../pkg/types.js').DewarpPageOptions} Options */
+/** @typedef {Pick<import('../../pkg/types.js').DewarpPageOptions, 'page' | 'light' | 'ink'>} Options */
 /** @typedef {import('../../pkg/types.js').PageEdges} PageEdges */
 /** @typedef {[number, number][]} Line */
 /** @typedef {[Line[], Line[], Line[], Line[]]} Traces of the upper, lower, left and right edge, each as one line per page */
@@ -19,7 +19,7 @@
  */
 export function flattenReducedPhoto(worker, { photo: { reduced, scale, film35 }, traces, options, moving }, onProgress = () => {}) {
   const { width, height, data } = reduced;
-  return worker.dewarpPage({ width, height, data, film35 }, toPageEdges(traces, scale), { ...scaleOptions(options, scale), ...(moving && { findLines: false, traceEdges: false }), onProgress: ({ fraction }) => onProgress(fraction) });
+  return worker.dewarpPage({ width, height, data, film35 }, toPageEdges(traces, scale), { ...options, ...(moving && { findLines: false, traceEdges: false }), onProgress: ({ fraction }) => onProgress(fraction) });
 }
 
 /**
@@ -60,11 +60,6 @@ export function tracedEdges({ edges }, given, scale) {
     const traced = edges[page]?.[name];
     return Array.isArray(traced) ? rescaleLine(traced, 1 / scale) : line;
   })));
-}
-
-/** Converts options in pixels of the photo to the reduced photo. @param {Options} options @param {number} scale */
-function scaleOptions({ focalLength, dots, ...options }, scale) {
-  return focalLength === undefined ? options : { ...options, focalLength: focalLength * scale };
 }
 
 /**

@@ -14,9 +14,9 @@ import { Magnifier } from './magnifier.js';
 /**
  * @typedef {object} HandleCallbacks
  * @property {(handle: number, to: [number, number], ended: boolean) => void} move `ended`: whether the drag has ended
- * @property {(pulls: number, place: [number, number]) => number} [pull] makes a handle at a place of a line and returns its index
- * @property {(handle: number) => void} [remove]
- * @property {(handle: number) => void} [choose] the handle has got the focus
+ * @property {(pulls: number, place: [number, number]) => number} pull makes a handle at a place of a line and returns its index
+ * @property {(handle: number) => void} remove
+ * @property {(handle: number) => void} choose the handle has got the focus
  */
 
 /** Movement for a press of an arrow key, in CSS pixels; ten times as much with Shift. */
@@ -136,7 +136,7 @@ export class Handles {
     button.type = 'button';
     this.#buttons.push(button);
     this.box.append(button);
-    button.addEventListener('focus', () => this.#callbacks.choose?.(handle));
+    button.addEventListener('focus', () => this.#callbacks.choose(handle));
     button.addEventListener('blur', () => this.#magnifier.hide());
     button.addEventListener('pointerdown', (event) => {
       if (event.button === 0) this.#drag(event, button, this.#nearest(event));
@@ -149,7 +149,7 @@ export class Handles {
         this.#callbacks.move(handle, [x + step * arrow[0], y - step * arrow[1]], true);
         this.#magnify(handle);
       } else if (event.key === 'Delete' || event.key === 'Backspace') {
-        this.#callbacks.remove?.(handle);
+        this.#callbacks.remove(handle);
       } else if (event.key === 'Escape') {
         this.#magnifier.hide();
       } else return;
@@ -206,8 +206,7 @@ export class Handles {
     const svg = this.#svg;
     svg.addEventListener('pointerdown', (event) => {
       const pulls = event.target instanceof Element ? event.target.getAttribute('data-pulls') : null;
-      const { pull } = this.#callbacks;
-      if (event.button !== 0 || pulls === null || !pull) return;
+      if (event.button !== 0 || pulls === null) return;
       // The root element captures the pointer: the line's own element is replaced while it is dragged.
       svg.setPointerCapture(event.pointerId);
       const pending = new AbortController();
@@ -215,7 +214,7 @@ export class Handles {
       svg.addEventListener('pointermove', (moved) => {
         if (moved.pointerId !== event.pointerId || Math.hypot(moved.clientX - event.clientX, moved.clientY - event.clientY) < MIN_PULL_PIXELS) return;
         pending.abort();
-        const handle = pull(Number(pulls), this.photoPosition(event));
+        const handle = this.#callbacks.pull(Number(pulls), this.photoPosition(event));
         if (handle >= 0) this.#drag(event, svg, handle, moved);
       }, { signal });
       for (const type of /** @type {const} */ (['pointerup', 'pointercancel'])) svg.addEventListener(type, () => pending.abort(), { signal });

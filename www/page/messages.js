@@ -43,10 +43,8 @@ export const BOOK_WORDS = {
   writing: (n, all) => `Flattening photo ${n} of ${all}…`,
 };
 
-/** Joins words by commas and “and”. @param {readonly string[]} words one or more */
-function joinWords(words) {
-  return words.length < 2 ? words.join('') : `${words.slice(0, -1).join(', ')} and ${words[words.length - 1]}`;
-}
+/** Joins words by commas and “and”. */
+const list = new Intl.ListFormat('en-GB');
 
 /** The verdict on a flat page, in a sentence. @param {PageReport} report */
 export function pageVerdict({ verdict, model, lines }) {
@@ -98,7 +96,7 @@ function doubtWords({ doubt }) {
 export function pageCautions({ outside, weak, unplaced }) {
   return [
     ...(unplaced > 0 ? [`Drag the other ${unplaced === 1 ? 'corner' : `${count(unplaced)} corners`}, too.`] : []),
-    ...(outside.length > 0 ? [outside.length === 1 ? `The ${outside[0]} corner is outside the photo.` : `The page is partly outside the photo: its ${joinWords(outside)} corners.`] : []),
-    ...(weak.length > 0 ? [`The ${joinWords(weak)} ${weak.length === 1 ? 'edge is' : 'edges are'} hard to see.`] : []),
+    ...(outside.length > 0 ? [outside.length === 1 ? `The ${outside[0]} corner is outside the photo.` : `The page is partly outside the photo: its ${list.format(outside)} corners.`] : []),
+    ...(weak.length > 0 ? [`The ${list.format(weak)} ${weak.length === 1 ? 'edge is' : 'edges are'} hard to see.`] : []),
   ];
 }

@@ -15,8 +15,7 @@ import { patchesOfMesh } from '../views/patches.js';
 import { photoOfMesh } from '../views/photo.js';
 import { rulings } from '../views/rulings.js';
 import { sheetOfMesh } from '../views/sheet.js';
-import { surfaceFormats } from '../solid.js';
-import { offerToSave } from './save-dialog.js';
+import { offerSurface } from '../solid.js';
 import { offerSheets } from './sheets.js';
 
 /** @import {View} from './stage.js' */
@@ -83,10 +82,7 @@ export function meshFitPanel(session, meshFit, stage, heights) {
     cancel: () => meshFit.cancel(),
     saveFile: () => {
       const { surface } = meshFit;
-      if (!surface) return;
-      const solid = surfaceFormats({ surface, positions: surface.positions, unit: surface.unit, onBase: false, mesh: async () => surface });
-      const offer = offerToSave(session.api, { title: '3D file', stem: stem(), unit: surface.unit, extra: [solid.fields], formats: solid.formats });
-      solid.onChange(offer.renew);
+      if (surface) offerSurface(session.api, { stem: stem(), surface, positions: surface.positions, unit: surface.unit, onBase: false, mesh: async () => surface });
     },
     cutSheets: () => {
       const { surface } = meshFit;

@@ -24,7 +24,7 @@ export function meshPanel(session) {
     if (!input?.sampling) return;
     const { mesh, options } = input.sampling;
     const opened = await openSampledMesh(
-      session, originOf(input), async () => mesh, { ...options, ...change }, 'The mesh could not be seen so', 'sampling',
+      session, input, async () => mesh, { ...options, ...change }, 'The mesh could not be seen so', 'sampling',
     );
     if (opened) void session.run();
     else direction.set(String(options.view));
@@ -86,11 +86,6 @@ function openSampledMesh(session, origin, load, options, doing, task) {
     const photo = texture ? { name: origin.name, image: new ImageData(texture.data, texture.width) } : origin.photo;
     return { ...origin, photo, ...grid, heightScale: 1, data, lattice, unit: lattice.unit ?? undefined, assumptions: mesh.assumptions, sampling: { mesh, options } };
   }, task);
-}
-
-/** @param {Input} input @returns {InputOrigin} */
-function originOf({ name, kind, photo, depthSource, cameraAssumption }) {
-  return { name, kind, photo, depthSource, cameraAssumption };
 }
 
 /** The number of triangles or points and the bounding box as a sentence. @param {Mesh} mesh */

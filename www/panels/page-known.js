@@ -4,7 +4,7 @@ import { above, choiceOf, fieldsOf } from '../fields.js';
 import { SAVE_WORDS } from '../messages.js';
 import { PAPERS } from '../page/paper.js';
 
-/** @typedef {import('../../pkg/types.js').DewarpPageOptions} Options */
+/** @import {Options} from '../page/flatten.js' */
 
 const { a4, letter } = SAVE_WORDS.papers;
 const FIELDS = {

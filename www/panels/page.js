@@ -121,38 +121,31 @@ export function pagePanel(api, onOpened, onChanged) {
    * @returns {Promise<string | null>} a note about them; null if none was opened
    */
   const openAll = async (files, alone = false) => {
-    const { photos: kept, index } = book;
+    const earlier = { photos: [...book.photos], index: book.index };
     if (alone) book.setFiles([]);
     /** Puts back the photos from before, since none has taken their place. */
     const giveUp = () => {
-      if (alone) Object.assign(book, { photos: kept, index });
+      Object.assign(book, earlier);
       list.renew();
       return null;
     };
     const before = book.photos.length;
-    const indices = book.addFiles(files);
+    const opened = book.addFiles(files).map((at) => book.photos[at]);
     const added = book.photos.length - before;
     list.renew();
     /** @type {string[]} */
     const problems = [];
     let isShown = false;
-    const opened = indices.map((at) => book.photos[at]);
-    /** @param {BookPhoto} photo */
-    const leaveOut = (photo) => {
-      book.remove(book.photos.indexOf(photo));
-      list.renew();
-    };
     for (const photo of opened) {
       try {
         isShown = await openAt(book.photos.indexOf(photo));
         if (isShown) break;
         // Another photo was chosen meanwhile, or the user has cancelled.
-        if (!opening?.signal.aborted) return null;
-        opened.filter((_, k) => indices[k] >= before).forEach(leaveOut);
-        return giveUp();
+        return opening?.signal.aborted ? giveUp() : null;
       } catch (error) {
         problems.push(errorMessage(`“${photo.file.name}” could not be opened`, error));
-        leaveOut(photo);
+        book.remove(book.photos.indexOf(photo));
+        list.renew();
       }
     }
     const words = problems.join(' ');

@@ -15,7 +15,7 @@ import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
  * @property {string} [stem] file name without its ending, where it differs from that of the offer
  * @property {() => string} [note] sentence about the file that was written, such as what it lacks
  * @property {string} [without] reason why the format is not available
- * @property {(worker: PackageWorker) => Promise<Uint8Array<ArrayBuffer> | string>} write
+ * @property {(worker: PackageWorker) => Promise<Uint8Array<ArrayBuffer> | Blob | string>} write
  *
  * @typedef {object} SaveOffer
  * @property {string} title

@@ -2,9 +2,8 @@
 import { percent, shortLambda } from '../format.js';
 import { FORMAT_WORDS, MESH_FIT_WORDS } from '../messages.js';
 import { longerSide, cutSheets, lengthUnitOf } from '../pattern.js';
-import { surfaceFormats } from '../solid.js';
+import { offerSurface } from '../solid.js';
 import { latticePositions } from '../surface/lattice.js';
-import { offerToSave } from './save-dialog.js';
 import { offerSheets } from './sheets.js';
 
 /**
@@ -14,24 +13,16 @@ import { offerSheets } from './sheets.js';
  */
 export function offerFile(api, result) {
   const { surface, image } = result;
-  const solid = surfaceFormats({
-    surface, positions: latticePositions(surface), unit: result.input.unit, onBase: true,
+  offerSurface(api, {
+    stem: fileStem(result), surface, positions: latticePositions(surface), unit: result.input.unit, onBase: true,
     mesh: async (worker) => worker.readMesh(new File([/** @type {Uint8Array<ArrayBuffer>} */ (await worker.writePly({ ...surface, frame: undefined, colors: undefined, uvs: undefined }))], 'surface.ply')),
-  });
-  const offer = offerToSave(api, {
-    title: '3D file',
-    stem: fileStem(result),
-    unit: result.input.unit,
-    extra: [solid.fields],
-    formats: [
-      ...solid.formats,
+    further: [
       { value: 'png', name: 'PNG', words: FORMAT_WORDS.png16, type: 'image/png', write: (worker) => worker.writePng(image) },
       { value: 'tiff', name: 'TIFF', words: FORMAT_WORDS.floats, type: 'image/tiff', write: (worker) => worker.writeTiff(image) },
       { value: 'exr', name: 'EXR', words: FORMAT_WORDS.floats, type: 'image/x-exr', write: (worker) => worker.writeExr(image) },
       { value: 'npy', name: 'NPY', words: FORMAT_WORDS.npy, type: 'application/octet-stream', write: (worker) => worker.writeNpy(image) },
     ],
   });
-  solid.onChange(offer.renew);
 }
 
 /** Offers the result as sheets. @param {Api} api @param {Result} result @param {Analyses} analyses */

@@ -100,7 +100,6 @@ export function settingsPanel(session, meshFit) {
     session.updateSettings({ lambda: 'auto' });
     updateHint();
   });
-  if (session.settings.lambda !== 'auto') showLambda(session.settings.lambda);
   showOptions(session.settings);
 
   /** Moves the slider to a λ that was chosen automatically. @param {number | undefined} lambda */

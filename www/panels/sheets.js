@@ -2,7 +2,7 @@
 import { element, make, makeButton, SETTLING_MS } from '../dom.js';
 import { between, fieldsOf } from '../fields.js';
 import { number } from '../format.js';
-import { assemblyModel, assemblyPicture, drawingImage, MAX_SIDE_MM, MIN_SIDE_MM, MM_PER_UNIT, sheetFigures, sheetsInWords, smallestPiece, suggestedSide, trueSide } from '../pattern.js';
+import { assemblyModel, drawingImage, MAX_SIDE_MM, MIN_SIDE_MM, MM_PER_UNIT, sheetFigures, sheetsInWords, smallestPiece, suggestedSide, trueSide } from '../pattern.js';
 import { hasCode, plainMessage } from '../error-messages.js';
 import { SHEET_WORDS } from '../messages.js';
 import { edgeAt, parsePairs, togglePair } from '../sheet-edges.js';
@@ -245,7 +245,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
         write: async (worker) => worker.writePdf(await drawing, { stock: paper() || undefined, title: stem }) },
       { value: 'svg', name: 'SVG', words: SHEET_WORDS.svg, type: 'image/svg+xml', write: async (worker) => worker.writeSvg(await drawing, { title: stem }) },
       { value: 'dxf', name: 'DXF', words: SHEET_WORDS.dxf, type: 'image/vnd.dxf', write: async (worker) => worker.writeDxf(await drawing) },
-      { value: 'png', name: 'PNG', words: SHEET_WORDS.png, type: 'image/png', write: async () => assemblyPicture(await drawing, up) },
+      { value: 'png', name: 'PNG', words: SHEET_WORDS.png, type: 'image/png', write: async () => (await import('../surface/built-picture.js')).builtPicture(assemblyModel(await drawing), up) },
       { value: 'glb', name: 'GLB', words: SHEET_WORDS.glb, type: 'model/gltf-binary', write: async () => assemblyModel(await drawing) },
     ],
   });

@@ -1,13 +1,12 @@
 /** Source of the heights: an example, or files with their scale and interpretation. */
 import { element, make } from '../dom.js';
 import { above, fieldsOf } from '../fields.js';
-import { ColourPictureError, readInput } from '../height-file.js';
+import { readInput } from '../height-file.js';
 import { hasColours } from '../views/photo.js';
-import { reinterpret, spanInWords } from '../import-interpretation.js';
+import { noDataOf, reinterpret, spanInWords } from '../import-interpretation.js';
 import { fileRoles } from '../file-routing.js';
 import { isMesh, isMeshFormat, kindByName, unreadableKindInWords } from '../file-kinds.js';
 import { assumedInWords, DEPTH_WORDS, FILE_WORDS } from '../messages.js';
-import { noDataOf } from '../no-data.js';
 import { cameraPanel } from './camera.js';
 import { meshPanel } from './mesh.js';
 import { showNotice } from './notice.js';
@@ -91,7 +90,7 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
       try {
         return await readInput(session.api, chosen, signal, reading, photo);
       } catch (error) {
-        if (error instanceof ColourPictureError && reading === undefined) isColourPicture = true;
+        isColourPicture = reading === undefined && error instanceof Error && /colour/.test(error.message);
         throw error;
       }
     }, 'reading');
@@ -192,8 +191,8 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
     array.replaceChildren(...(several?.names ?? []).map((name) => new Option(name, name, false, name === several?.name)));
     fileName.textContent = `${input.name} (${input.kind})`;
     if (!input.stored) return;
-    fields.set('pixel-size', fieldText(input.stored.pixelSize));
-    fields.set('height-scale', fieldText(input.stored.heightScale));
+    fields.set('pixel-size', Number(input.stored.pixelSize.toPrecision(8)));
+    fields.set('height-scale', Number(input.stored.heightScale.toPrecision(8)));
     fields.set('no-data', input.stored.noData ?? '');
     span.textContent = spanInWords(input);
   });
@@ -217,9 +216,4 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
 /** The option of a menu that is nearest to a number. @param {Record<string, string>} options @param {number} value */
 function nearestOption(options, value) {
   return Object.keys(options).map(Number).sort((a, b) => Math.abs(a - value) - Math.abs(b - value))[0];
-}
-
-/** A number for an input field, rounded to the digits for which it has room. @param {number} value */
-function fieldText(value) {
-  return String(Number(value.toPrecision(8)));
 }

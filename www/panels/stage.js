@@ -7,7 +7,7 @@ import { choiceOf } from '../fields.js';
 import { VIEW_LABELS, VIEW_WORDS } from '../messages.js';
 import { PictureView } from '../surface/picture-view.js';
 import { SceneView } from '../surface/scene.js';
-import { aboutView, pictureWithColours } from '../views/legend.js';
+import { colourBar, pictureWithColours } from '../views/legend.js';
 import { dividerOver } from './divider.js';
 import { showError } from './notice.js';
 import { waitingPanel } from './waiting.js';
@@ -114,7 +114,7 @@ export function stagePanel(first) {
     element('picture-hint', HTMLElement).hidden = !isFlat;
     for (const tools of elements('#space-hint, .space-tools', HTMLElement)) tools.hidden = isFlat;
     const isDivided = subject.isDivided() && !isFlat;
-    divider.show(isDivided);
+    divider.show(isDivided && !isMissing);
     element('space-before', HTMLElement).hidden = isFlat;
     element('space-after', HTMLElement).hidden = !isDivided;
     save.disabled = !subject.isSolved() || (view === null && !isFlat);
@@ -169,7 +169,7 @@ export function stagePanel(first) {
     shown = content;
     flat.show(content.flat ?? null);
     reading.textContent = '';
-    about.replaceChildren(...aboutView(content));
+    about.replaceChildren(...(content.said ? [make('p', 'said', content.said)] : []), ...(content.colours ? [colourBar(content.colours)] : []), ...(content.about ?? []));
     panel.dataset.view = chosen();
     panel.hidden = about.childElementCount === 0;
     updateLayers();

@@ -18,7 +18,6 @@ const STRIP_LAMBDAS = [1e4, 1e5, 1e6, 1e7, 1e8];
  */
 export function stripPanel(session, adopt) {
   const strip = element('strip', HTMLElement);
-  const list = /** @type {HTMLElement} */ (strip.firstElementChild);
   const button = element('strip-open', HTMLButtonElement);
   /** Aborts the solves that are running. @type {AbortController | null} */
   let job = null;
@@ -30,7 +29,7 @@ export function stripPanel(session, adopt) {
     canvas.setAttribute('aria-hidden', 'true');
     const figures = make('span', 'muted', '\u00a0');
     const choice = makeButton('strip-one', () => adopt({ ...session.settings, lambda }), canvas, make('span', '', `λ = ${shortLambda(lambda)}`), figures);
-    list.append(choice);
+    strip.append(choice);
     return { lambda, canvas, choice, figures };
   });
 

@@ -17,7 +17,7 @@ const NUMBER_PLACES = 40;
  * Draws a pattern's assembly.
  * @param {Uint8Array} model the assembly, a GLB file
  * @param {'y' | 'z'} up the axis that points upwards
- * @returns {Promise<OffscreenCanvas>}
+ * @returns {Promise<Blob>} a PNG
  */
 export async function builtPicture(model, up) {
   const { positions, triangles, sheets } = readAssemblyMesh(model);
@@ -46,7 +46,7 @@ export async function builtPicture(model, up) {
     context.fillText(String(sheet + 1), ...place);
   }
   scene.dispose();
-  return picture;
+  return picture.convertToBlob({ type: 'image/png' });
 }
 
 /**

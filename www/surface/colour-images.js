@@ -1,5 +1,5 @@
 /** Images of flat sheets in the colours of their strain, as pixels of a canvas; a pixel without a sheet is 0. */
-import { COLOUR_SCALE_QUANTILE, divergingPixel, magnitudeQuantile, toPixel } from './colours.js';
+import { COLOUR_SCALE_QUANTILE, divergingColour, magnitudeQuantile, toPixel } from './colours.js';
 import { principalStretches } from './assembly-mesh.js';
 import { boxOf, fillTriangles } from './triangles.js';
 
@@ -36,7 +36,7 @@ export function sheetStrainImage(triangles, places, stretches) {
   const onImage = places.map((value, i) => SHEET_MARGIN_PIXELS + (i % 2 === 0 ? value - left : top - value) * pixelsPerUnit);
   const strains = Float64Array.from({ length: triangles.length / 3 }, (_, t) => triangleStrain(stretches, t));
   const maxStrain = Math.max(MIN_STRAIN_RANGE, magnitudeQuantile([strains], COLOUR_SCALE_QUANTILE));
-  const colours = Uint32Array.from(strains, (strain) => divergingPixel(strain / maxStrain));
+  const colours = Uint32Array.from(strains, (strain) => toPixel(divergingColour(strain / maxStrain)));
   const pixels = new Uint32Array(width * height);
   const values = new Float32Array(width * height).fill(NaN);
   fillTriangles({ width, height }, triangles, onImage, (pixel, triangle) => {

@@ -19,9 +19,6 @@ export const COLOUR_SCALE_QUANTILE = 0.99;
 
 /** Number of values that are sorted for a quantile, about. */
 const QUANTILE_SAMPLE_VALUES = 30_000;
-/** Number of intervals of the table of diverging colours. */
-const TABLE_STEPS = 512;
-const divergingTable = new Uint32Array(Array.from({ length: TABLE_STEPS + 1 }, (_, i) => toPixel(divergingColour((2 * i) / TABLE_STEPS - 1))));
 
 /**
  * The colour of a value in the diverging colour map.
@@ -34,11 +31,6 @@ export function divergingColour(t) {
   /** @param {0 | 1 | 2} k */
   const mix = (k) => DIVERGING[i][k] + (place - i) * (DIVERGING[i + 1][k] - DIVERGING[i][k]);
   return [mix(0), mix(1), mix(2)];
-}
-
-/** The diverging colour as a pixel. @param {number} t */
-export function divergingPixel(t) {
-  return divergingTable[Math.round(((Math.min(1, Math.max(-1, t)) + 1) / 2) * TABLE_STEPS)];
 }
 
 /** Colours of patches, distinct in hue and lightness; further patches repeat them. @type {readonly Colour[]} */
@@ -109,19 +101,24 @@ export function linearScale(maximum, label) {
 }
 
 /**
- * A quantile of the absolute values, without NaN. Long fields are sampled.
+ * Values without NaN in ascending order. Long fields are sampled.
  * @param {readonly ArrayLike<number>[]} fields
- * @param {number} share of the values below the quantile
+ * @param {(value: number) => number} [measure]
  */
-export function magnitudeQuantile(fields, share) {
+export function sortedSample(fields, measure = (value) => value) {
   const total = fields.reduce((sum, { length }) => sum + length, 0);
   const step = Math.max(1, Math.floor(total / QUANTILE_SAMPLE_VALUES));
   const found = [];
   for (const values of fields) {
     for (let i = 0; i < values.length; i += step) {
-      if (!Number.isNaN(values[i])) found.push(Math.abs(values[i]));
+      if (!Number.isNaN(values[i])) found.push(measure(values[i]));
     }
   }
-  const sorted = Float64Array.from(found).sort();
+  return Float64Array.from(found).sort();
+}
+
+/** A quantile of the absolute values. @param {readonly ArrayLike<number>[]} fields @param {number} share of the values below the quantile */
+export function magnitudeQuantile(fields, share) {
+  const sorted = sortedSample(fields, Math.abs);
   return sorted[Math.floor(share * (sorted.length - 1))] ?? 0;
 }

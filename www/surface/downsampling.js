@@ -8,9 +8,6 @@
  * @property {number} [pixelSize] 1 unless said otherwise
  */
 
-/** Length of the longer side of the finest preview. */
-export const PREVIEW_SIDE_PIXELS = 384;
-
 /**
  * The mean of the values in each block of pixels; NaN for a block without data.
  * @param {Heights} image

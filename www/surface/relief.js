@@ -1,4 +1,5 @@
 /** Heights in space: their surface, bounding box, and the height at a place. */
+import { sortedSample } from './colours.js';
 import { downsample } from './downsampling.js';
 import { gridOf } from './lattice.js';
 
@@ -21,8 +22,6 @@ const MAX_SIDE_VERTICES = 512;
 const MAX_SLOW_SIDE_VERTICES = 200;
 /** Quantile of the heights at the top of the box; the bottom is at the opposite quantile. */
 const BOX_HEIGHT_SHARE = 0.998;
-/** Number of heights from which the box is computed, about. */
-const BOX_SAMPLE_HEIGHTS = 20_000;
 
 /**
  * The surface of an image of heights on the grid of an input.
@@ -86,13 +85,7 @@ export function reliefMesh({ width, height, heights, heightScale, extent }, isFa
  */
 export function heightfieldBox(input) {
   const { width, height, pixelSize, left, top } = gridOf(input);
-  const step = Math.max(1, Math.floor(input.data.length / BOX_SAMPLE_HEIGHTS));
-  const found = [];
-  for (let i = 0; i < input.data.length; i += step) {
-    const z = input.data[i] * input.heightScale;
-    if (!Number.isNaN(z)) found.push(z);
-  }
-  const sorted = Float64Array.from(found).sort();
+  const sorted = sortedSample([input.data], (value) => value * input.heightScale);
   const most = sorted.length - 1;
   const [low, high] = [sorted[Math.ceil((1 - BOX_HEIGHT_SHARE) * most)] ?? 0, sorted[Math.floor(BOX_HEIGHT_SHARE * most)] ?? 0];
   return { low: [left, top - height * pixelSize, low], high: [left + width * pixelSize, top, high] };

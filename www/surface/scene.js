@@ -28,8 +28,6 @@ import { addPictureKeys, KEY_MOVE_SHARE, MAX_ZOOM } from './zoom.js';
  */
 /** @typedef {{ after: boolean, triangle: number, shares: Vector, point: Vector }} Place a place of a surface; `after`: right of the divider; `shares`: barycentric coordinates */
 
-/** Half of the shorter side of a view without zoom, in radii of the box. */
-const VIEW_HALF_WIDTH = 1.04;
 /** Share of the frame that the surface fills at first. */
 const FILLED_SHARE = 0.8;
 /** Half of the side of the ground, and the distance of the light that casts the shadow, in radii of the box. */
@@ -40,9 +38,8 @@ const SHADOW_MAP_SIDE = 256;
 /** Angle of the first turn, in radians, and its duration, in milliseconds. */
 const FIRST_TURN_RADIANS = 0.7;
 const FIRST_TURN_MS = 1800;
-/** Distance of the camera from the centre, and half of the visible depth range, in radii of the box. */
+/** Distance of the camera from the centre, in radii of the box. */
 const CAMERA_DISTANCE = 50;
-const VIEW_HALF_DEPTH = 8;
 /** Distance by which lines are drawn nearer than the surface that they lie on, in radii of the box. */
 const LINE_OFFSET = 0.012;
 /** Looks of paper from the front right and above, by the axis that points upwards. @type {Record<'y' | 'z', Look>} */
@@ -126,7 +123,7 @@ export class SceneView {
       const texels = new Uint8Array(4 * MATCAP_SIDE_TEXELS ** 2);
       return Object.assign(new three.DataTexture(texels, MATCAP_SIDE_TEXELS, MATCAP_SIDE_TEXELS), { magFilter: three.LinearFilter, minFilter: three.LinearFilter });
     });
-    this.#camera = new three.OrthographicCamera(-1, 1, 1, -1, CAMERA_DISTANCE - VIEW_HALF_DEPTH, CAMERA_DISTANCE + VIEW_HALF_DEPTH);
+    this.#camera = new three.OrthographicCamera(-1, 1, 1, -1, 0, 2 * CAMERA_DISTANCE);
     this.#raycaster = new three.Raycaster();
     this.#shadowLight = new three.DirectionalLight();
     this.#shadowLight.castShadow = true;
@@ -316,7 +313,7 @@ export class SceneView {
   /** Half of the sides of the view without zoom, in the units of the drawn box. */
   get #halfSides() {
     const { width, height } = this.#size;
-    return [VIEW_HALF_WIDTH * Math.max(1, width / height), VIEW_HALF_WIDTH * Math.max(1, height / width)];
+    return [Math.max(1, width / height), Math.max(1, height / width)];
   }
 
   /** Turns the surface slowly to its present direction, once, unless the user takes hold of it or prefers less motion. */

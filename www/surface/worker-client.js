@@ -1,5 +1,5 @@
 /** Calls functions that take longer than a frame in a worker of the page (`worker.js`). */
-import { transfer, wrap } from '../../pkg/wire.js';
+import { wrap } from '../../pkg/wire.js';
 
 /** @typedef {typeof import('./worker.js').tasks} Tasks */
 
@@ -13,30 +13,17 @@ function start() {
 }
 
 /**
- * Calls a task in the worker. The arguments are copied.
+ * Calls a task in the worker. The arguments are copied, or handed over by Comlink's `transfer`.
  * @template {keyof Tasks} T
  * @param {T} task
  * @param {Parameters<Tasks[T]>} args
  * @returns {Promise<Awaited<ReturnType<Tasks[T]>>>}
  */
 export function callWorker(task, ...args) {
-  return transferToWorker(task, [], ...args);
-}
-
-/**
- * Calls a task in the worker. The buffers of some arrays are transferred, which leaves these arrays empty.
- * @template {keyof Tasks} T
- * @param {T} task
- * @param {readonly { buffer: ArrayBufferLike }[]} arrays
- * @param {Parameters<Tasks[T]>} args
- * @returns {Promise<Awaited<ReturnType<Tasks[T]>>>}
- */
-export function transferToWorker(task, arrays, ...args) {
   const { worker, tasks } = (started ??= start());
   const ended = new AbortController();
   return new Promise((resolve, reject) => {
     worker.addEventListener('error', () => reject(new Error('the page’s worker has failed')), { signal: ended.signal });
-    transfer(args[0], arrays.map(({ buffer }) => /** @type {ArrayBuffer} */ (buffer)));
     tasks[task](...args).then(resolve, reject);
   }).finally(() => ended.abort());
 }

@@ -8,16 +8,8 @@ import { toCss, divergingColour } from '../surface/colours.js';
 /** Colours of a colour bar, evenly spaced. */
 const STOPS = Array.from({ length: 21 }, (_, i) => toCss(divergingColour(i / 10 - 1)));
 
-/**
- * The elements below a view.
- * @param {{ said?: string, colours?: Colours, about?: readonly Node[] }} shown a sentence, the meaning of the colours, and further elements
- */
-export function aboutView({ said, colours, about = [] }) {
-  return [...(said ? [make('p', 'said', said)] : []), ...(colours ? [colourBar(colours)] : []), ...about];
-}
-
 /** A colour bar with its ticks. @param {Colours} colours */
-function colourBar({ title, scale }) {
+export function colourBar({ title, scale }) {
   const bar = make('div', 'bar');
   bar.style.background = `linear-gradient(to right, ${STOPS.join(', ')})`;
   const ticks = make('div', 'ticks');

@@ -50,6 +50,22 @@ pageTest('a card that is seen from above is seen so when an address opens it', a
   assert.ok(alike > 0.9, `${alike}`);
 }, { start: '#fig-8', drawn: true });
 
+doorTest('the last view that is asked for before the surface can be drawn is the first that is shown', async (page) => {
+  /** @type {() => void} */
+  let release = () => {};
+  const released = new Promise((resolve) => (release = () => resolve(undefined)));
+  await page.route(/three/, (route) => released.then(() => route.continue()));
+  await page.evaluate(() => (location.hash = '#example=roof&size=100&noise=0.02'));
+  await page.locator('#certificate').waitFor();
+  for (const name of ['From above', 'At an angle']) await page.getByRole('button', { name }).click();
+  release();
+  await page.waitForFunction(() => document.querySelector('canvas#space-canvas:not([width="300"], :not([width]))'));
+  const first = await brightness(page, '#space-canvas');
+  await page.getByRole('button', { name: 'At an angle' }).click();
+  const alike = correlation(first, await brightness(page, '#space-canvas'));
+  assert.ok(alike > 0.95, `${alike}`);
+}, { drawn: true });
+
 pageTest('in space the surface is turned and divided', async (page) => {
   const divider = page.getByRole('slider', { name: 'Divider between input and result' });
 

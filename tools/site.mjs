@@ -65,6 +65,8 @@ export async function bundlePage(folder) {
       assetsInlineLimit: 0,
       modulePreload: false,
       chunkSizeWarningLimit: 2000,
+      // The page asks for two modules of the package, one after the other, which would be two requests.
+      rolldownOptions: { output: { codeSplitting: { groups: [{ name: 'pkg', test: /\/pkg\/(?:index|wire)\.js$/ }] } } },
     },
   });
   if (found.size < IMPORTS.length) throw new Problem('An import that the site needs is no longer where tools/site.mjs looks for it.');

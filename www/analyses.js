@@ -2,7 +2,6 @@
 import { downsample } from './surface/downsampling.js';
 import { MAX_SHEET_CURVATURE_RADIANS } from './surface/gaussian-curvature.js';
 import { callWorker } from './surface/worker-client.js';
-import { transfer } from '../pkg/wire.js';
 import { Tasks } from './worker-task.js';
 import { heightsOf } from './session.js';
 
@@ -61,6 +60,7 @@ export class Analyses extends Tasks {
   unroll({ surface }, tell) {
     return this.answer(surface, 'sheet', async (worker) => {
       const { triangles, places, stretches, report, verdict } = await worker.unroll(surface, { onProgress: ({ fraction }) => tell({ fraction, task: 'unrolling' }) });
+      const { transfer } = await import('../pkg/wire.js');
       const picture = await callWorker('sheetStrainImage', transfer(triangles, [triangles, places, stretches].map(({ buffer }) => buffer)), places, stretches);
       return { picture, report, verdict };
     });

@@ -2,7 +2,6 @@
 import { runInWorker } from './worker-task.js';
 import { stemOf } from './file-kinds.js';
 import { readPicture } from './pixels.js';
-import { transfer } from '../pkg/wire.js';
 import { callWorker } from './surface/worker-client.js';
 import { noDataOptions } from './import-interpretation.js';
 
@@ -23,6 +22,7 @@ export async function readInput(api, file, signal, { array, noData } = {}, photo
   });
   const { format, dataType, assumptions } = read;
   const photo = photoFile && { name: photoFile.name, image: await readPicture(photoFile) };
+  const { transfer } = await import('../pkg/wire.js');
   const input = await callWorker('interpretFile', transfer(read, [read.data.buffer]), noData);
   return {
     ...input,

@@ -15,8 +15,6 @@ export function runPanel(session, meshFit, stage) {
   let firstGap = NaN;
   /** Share of the progress that was told, which must not go back: λ may be chosen on finer lattices than the solve begins with. */
   let told = 0;
-  /** Share at the first gap. */
-  let firstShare = 0;
   /** Number of coarser lattices so far. */
   let levels = 0;
 
@@ -39,7 +37,7 @@ export function runPanel(session, meshFit, stage) {
     if (hadFocus) (isStale ? solve : element('lambda', HTMLInputElement)).focus();
   };
   const begin = () => {
-    [firstGap, firstShare, levels, told] = [NaN, 0, 0, 0];
+    [firstGap, levels, told] = [NaN, 0, 0];
     form.removeAttribute('data-stale');
     solve.classList.remove('primary');
     waiting.begin('solving');
@@ -56,8 +54,9 @@ export function runPanel(session, meshFit, stage) {
       return waiting.tell({ fraction: told, label: RUN_WORDS.coarse(level) });
     }
     if (gap !== undefined && gap < 1) {
-      if (Number.isNaN(firstGap)) [firstGap, firstShare] = [gap, levels > 0 ? COARSE_LATTICES_SHARE : 0];
-      if (firstGap > 0) told = Math.max(told, firstShare + (1 - firstShare) * gapProgress(gap, firstGap, session.settings.gap));
+      const coarse = levels > 0 ? COARSE_LATTICES_SHARE : 0;
+      if (Number.isNaN(firstGap)) firstGap = gap;
+      if (firstGap > 0) told = Math.max(told, coarse + (1 - coarse) * gapProgress(gap, firstGap, session.settings.gap));
     }
     waiting.tell({ fraction: told, label: RUN_WORDS.fine(gap, iteration) });
   });

@@ -1,12 +1,13 @@
 /** Calls functions that take longer than a frame in a worker of the page (`worker.js`). */
-import { wrap } from '../../pkg/wire.js';
 
 /** @typedef {typeof import('./worker.js').tasks} Tasks */
 
-/** Started with the first call, and after a failure. @type {{ worker: Worker, tasks: any } | null} */
+/** Started with the first call, and after a failure. @type {Promise<{ worker: Worker, tasks: any }> | null} */
 let started = null;
 
-function start() {
+/** The import is dynamic, so that the page can report that there is no package. */
+async function start() {
+  const { wrap } = await import('../../pkg/wire.js');
   const worker = new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
   worker.addEventListener('error', () => (started = null));
   return { worker, tasks: wrap(worker) };
@@ -19,8 +20,8 @@ function start() {
  * @param {Parameters<Tasks[T]>} args
  * @returns {Promise<Awaited<ReturnType<Tasks[T]>>>}
  */
-export function callWorker(task, ...args) {
-  const { worker, tasks } = (started ??= start());
+export async function callWorker(task, ...args) {
+  const { worker, tasks } = await (started ??= start());
   const ended = new AbortController();
   return new Promise((resolve, reject) => {
     worker.addEventListener('error', () => reject(new Error('the page’s worker has failed')), { signal: ended.signal });

@@ -21,7 +21,7 @@ export function longerSide({ input: { width, height, pixelSize } }) {
   return Math.max(width, height) * pixelSize;
 }
 
-/** Millimetres per unit of length. */
+/** Millimetres in a metre, in an inch and in the other units of length. */
 export const MM_PER_UNIT = { mm: 1, cm: 10, m: 1000, inch: 25.4 };
 /** Bounds of the longer side of a finished surface, in millimetres. */
 export const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];

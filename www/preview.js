@@ -16,6 +16,8 @@ import { WORKER_IDLE_MS } from './worker-task.js';
 
 /** Longer sides of the lattices from coarse to fine, in pixels: the first takes about 30 ms, each further one four times as long. */
 const PREVIEW_SIDES_PIXELS = [96, 192, 384];
+/** Whether a solve of an input takes so long that it is accompanied by previews. @param {Input} input */
+export const isPreviewed = ({ width, height }) => Math.max(width, height) > 1.5 * PREVIEW_SIDES_PIXELS[0];
 /** Duality gap at which a preview stops. */
 const PREVIEW_GAP = 0.1;
 

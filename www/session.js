@@ -6,7 +6,7 @@
  * Until a result is ready, and while a slider is dragged, `preview.js` shows approximate results.
  */
 import { Events } from './events.js';
-import { PreviewSolver } from './preview.js';
+import { isPreviewed, PreviewSolver } from './preview.js';
 import { gridOf } from './surface/lattice.js';
 import { callWorker } from './surface/worker-client.js';
 import { WORKER_IDLE_MS } from './worker-task.js';
@@ -70,8 +70,6 @@ import { WORKER_IDLE_MS } from './worker-task.js';
  * @property {{ doing: string, error: unknown }} failure
  */
 
-/** Minimum number of pixels of an input whose run is accompanied by previews; a smaller one is solved almost at once. */
-const MIN_PREVIEWED_PIXELS = 150 ** 2;
 /** Minimum number of pixels of a large input, whose solver holds so much memory that it is disposed of when idle. */
 const MIN_LARGE_INPUT_PIXELS = 500 ** 2;
 /** Time that a cancelled run of a large input has to return its best surface, in milliseconds. */
@@ -287,7 +285,7 @@ export class Session extends Events {
     clearTimeout(this.#idleTimer);
     this.emit('start', settings);
     this.#setPhase('running');
-    if (input.width * input.height > MIN_PREVIEWED_PIXELS) this.#requestPreview(input);
+    if (isPreviewed(input)) this.#requestPreview(input);
     const { coarsening, ...options } = settings;
     try {
       // Copying a large input to the worker takes time: let the browser draw first.

@@ -3,9 +3,8 @@ import { element } from '../dom.js';
 import { count } from '../format.js';
 import { certificateInWords, HEADLINE_WORDS, noiseReductionInWords, piecesInWords, TASK_WORDS } from '../messages.js';
 import { hideNotice, showError } from './notice.js';
+import { PROGRESS_DELAY_MS } from './waiting.js';
 
-/** Delay before the pieces of a result are counted, in milliseconds: while λ is dragged, results follow each other quickly. */
-const PIECE_COUNT_DELAY_MS = 150;
 /** Maximum number of attempts to count the pieces: other analyses may cancel one. */
 const MAX_PIECE_COUNT_ATTEMPTS = 3;
 
@@ -59,7 +58,8 @@ export function headlinePanel(session, analyses, stage, heights) {
     say(HEADLINE_WORDS.solved, detailsOf(session));
     main.setAttribute('aria-busy', 'true');
     clearTimeout(pieceCountTimer);
-    pieceCountTimer = window.setTimeout(() => void showPieces(result), PIECE_COUNT_DELAY_MS);
+    // While λ is dragged, results follow each other quickly.
+    pieceCountTimer = window.setTimeout(() => void showPieces(result), PROGRESS_DELAY_MS);
   });
   session.on('cleared', () => {
     chip.hidden = true;

@@ -127,7 +127,7 @@ const MATRIX = ['k', 'intrinsicmatrix', 'cameramatrix', 'intrinsics', 'intrinsic
 
 /** Plain names of the list of a lens' distortion, in OpenCV's order. */
 const LENS = [
-  'distortioncoefficients', 'distortioncoeffs', 'distortion', 'distcoeffs', 'distcoeff', 'distcoefs', 'coefficients', 'coeffs', 'dist', 'd', 'd1',
+  'distortioncoefficients', 'distortioncoeffs', 'distortion', 'distortions', 'distcoeffs', 'distcoeff', 'distcoefs', 'coefficients', 'coeffs', 'dist', 'd', 'd1',
 ];
 
 /** Names of lenses that `k1` to `k3`, `p1` and `p2` do not describe. */
@@ -201,6 +201,11 @@ function cameraOf(file, images) {
  */
 function lens(file, number) {
   const listed = LENS.map((name) => listOf(file[name])).find((list) => list !== undefined);
+  // As MATLAB has them.
+  const [[k1, k2, k3], [p1, p2]] = [file.radialdistortion, file.tangentialdistortion].map((list) => listOf(list) ?? []);
+  if (k1 !== undefined) return [k1, k2, p1, p2, k3];
+  const unknown = Object.keys(file).find((name) => /distort/.test(name) && !LENS.includes(name) && listOf(file[name])?.some((k) => k !== 0));
+  if (unknown !== undefined && listed === undefined) throw problem(`what its field \`${unknown}\` says of the lens is not known here: name it \`distortion\` if it is k1, k2, p1, p2, k3`);
   return listed ?? ['k1', 'k2', 'p1', 'p2', 'k3', 'k4', 'k5', 'k6', 'p3', 'p4'].map((name) => number(name));
 }
 

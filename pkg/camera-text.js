@@ -16,6 +16,7 @@ const COLMAP = /** @type {Record<string, string>} */ ({
   SIMPLE_RADIAL_FISHEYE: 'f cx cy k',
   RADIAL_FISHEYE: 'f cx cy k1 k2',
   THIN_PRISM_FISHEYE: 'fx fy cx cy k1 k2 p1 p2 k3 k4 sx1 sy1',
+  RAD_TAN_THIN_PRISM_FISHEYE: 'fx fy cx cy k0 k1 k2 k3 k4 k5 p0 p1 s0 s1 s2 s3',
 });
 
 /**
@@ -37,11 +38,9 @@ export function cameraTree(given) {
 function treeOf(given) {
   // A byte order mark, with which some programs begin their files, is no JSON.
   const text = given.replace(/^\uFEFF/, '').trim();
-  try {
-    return JSON.parse(text);
-  } catch {
-    if (text.startsWith('<')) return xml(text);
-  }
+  const found = braced(text);
+  if (found !== undefined) return found;
+  if (text.startsWith('<')) return xml(text);
   const lines = text.split(/\r?\n/).map((line) => line.replace(/(^|\s)#.*$/, '')).filter((line) => line.trim() !== '');
   const colmap = lines.flatMap(colmapLine);
   if (colmap.length > 0) return colmap;
@@ -54,6 +53,22 @@ function treeOf(given) {
     return Object.fromEntries(names.map((name, i) => [String(valueOf(name)), valueOf(values[i])]));
   }
   return named(lines);
+}
+
+/**
+ * What is between brackets: JSON, a map of YAML in one line, or what Python prints; `undefined` for another text.
+ * @param {string} text
+ * @returns {unknown}
+ */
+function braced(text) {
+  if (!/^[{[]/.test(text)) return undefined;
+  const quoted = () => text.replaceAll("'", '"').replace(/([{[,:]\s*)([A-Za-z_][^,:{}[\]"]*?)(?=\s*[,:}\]])/g, '$1"$2"');
+  for (const json of [() => text, quoted]) {
+    try {
+      return JSON.parse(json());
+    } catch {} // perhaps the other one
+  }
+  return undefined;
 }
 
 /** The cameras of COLMAP's `cameras.bin`; `undefined` for another file. @param {Uint8Array} bytes */
@@ -96,6 +111,8 @@ function colmapCamera(model, width, height, number) {
  * @returns {unknown}
  */
 function valueOf(text) {
+  const map = text.startsWith('{') ? braced(text) : undefined;
+  if (map !== undefined) return map;
   const parts = text.replace(/[[\](),;]/g, ' ').trim().split(/\s+/);
   if (!parts.every((part) => part !== '' && Number.isFinite(Number(part)))) return text.trim().replace(/^(["'])(.*)\1$/, '$2');
   return parts.length === 1 && !text.includes('[') ? Number(parts[0]) : parts.map(Number);
@@ -127,21 +144,26 @@ function xml(text) {
 }
 
 /**
- * A line for each pair of a name and a value that a line has, as in `camera: { fx: 525, fy: 520 }` and `fx=525 fy=520`.
+ * A line for each pair of a name and a value that a line has, as in `fx=525 fy=520` and `fx: 525, fy: 520`.
  * @param {string} line
  */
 function pairs(line) {
-  const parts = line.replace(/^(\s*-\s+)\{\s*/, '$1').split(/(?:\s*([{,])\s*(?=["']?[A-Za-z]\w*["']?\s*[:=])|\s+(?=[A-Za-z]\w*\s*=\s*[-\d.[]))/);
-  let indent = /^(\s*-)?\s*/.exec(line)?.[0].replace('-', ' ') ?? '';
-  const lines = [];
-  // What the line is split at stands between its parts.
-  for (let i = 0; i < parts.length; i += 2) {
-    if (parts[i - 1] === '{') indent += ' ';
-    const part = parts[i].replace(/[\s}]+$/, '');
-    lines.push(i === 0 ? part : indent + part);
-    indent = indent.slice(parts[i].split('}').length - 1);
+  if (line.includes('{')) return [line];
+  const [indent] = /^\s*/.exec(line) ?? [''];
+  const [first, ...rest] = line.split(/(?:\s*,\s*(?=["']?[A-Za-z]\w*["']?\s*[:=])|\s+(?=[A-Za-z]\w*\s*=\s*[-\d.[]))/);
+  return [first, ...rest.map((part) => indent + part)];
+}
+
+/** Puts what is between brackets in one line. @param {string[]} lines */
+function joined(lines) {
+  let open = 0;
+  /** @type {string[]} */
+  const whole = [];
+  for (const line of lines) {
+    whole.push(open > 0 ? `${whole.pop()} ${line.trim()}` : line);
+    open += line.replace(/[^[{]/g, '').length - line.replace(/[^\]}]/g, '').length;
   }
-  return lines;
+  return whole;
 }
 
 /**
@@ -161,15 +183,15 @@ function named(lines) {
   };
   /** @type {unknown[]} */
   let list = [];
-  // Lists over several lines.
-  const joined = lines.join('\n').replace(/\[(?:[^[\]]|\[[^[\]]*\])*\]/g, (found) => found.replace(/\s+/g, ' '));
-  for (const line of joined.split('\n').flatMap(pairs)) {
+  for (const line of joined(lines).flatMap(pairs)) {
     const [, section] = /^\s*\[([^\],]+)\]\s*$/.exec(line) ?? [];
     if (section !== undefined) {
       open = [open[0]];
       begin(section, -1);
       continue;
     }
+    const [, map] = /^\s*-\s+(\{.*)$/.exec(line) ?? [];
+    if (map !== undefined) list.push(braced(map));
     // Lists within lists are rows of a matrix.
     const [, item] = /^\s*(?:-\s+)+([^:]*)$/.exec(line) ?? [];
     if (item !== undefined) list.push(valueOf(item));

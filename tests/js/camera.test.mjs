@@ -258,6 +258,10 @@ test('cameras as ROS, OpenCV, COLMAP, nerfstudio, Metashape, ZED and others writ
       '  resolution:\n  - 640\n  - 480\n  rostopic: /cam0/image_raw\n', { ...plain, ...lens, k3: undefined }],
     ['ROS, written anew by PyYAML', `camera_matrix:\n  cols: 3\n  data:\n  - ${list.split(', ').join('\n  - ')}\n  rows: 3\ndistortion_coefficients:\n  cols: 5\n  data:\n  - 0.1\n  - -0.2\n  - 0.001\n  - 0.002\n  - 0.0\n  rows: 1\n` +
       'image_height: 480\nimage_width: 640\n', { ...plain, ...lens }],
+    ['ROS, as PyYAML writes a map without lines of its own', '{camera_matrix: {cols: 3, data: [525.0, 0.0, 319.5, 0.0, 520.0, 239.5, 0.0, 0.0, 1.0],\n    rows: 3}, camera_name: narrow, distortion_coefficients: {cols: 5, data: [0.1,\n' +
+      '      -0.2, 0.001, 0.002, 0.0], rows: 1}, distortion_model: plumb_bob, image_height: 480,\n  image_width: 640}\n', { ...plain, ...lens }],
+    ['a map of YAML over several lines', 'camera: {fx: 525, fy: 520,\n  cx: 319.5, cy: 239.5}\n', plain],
+    ['MATLAB', JSON.stringify({ IntrinsicMatrix: [[525, 0, 0], [0, 520, 0], [319.5, 239.5, 1]], RadialDistortion: [0.1, -0.2], TangentialDistortion: [0.001, 0.002] }), { ...plain, ...lens, k3: undefined }],
     ['lists of rows by PyYAML', 'camera_matrix:\n- - 525.0\n  - 0.0\n  - 319.5\n- - 0.0\n  - 520.0\n  - 239.5\n- - 0.0\n  - 0.0\n  - 1.0\ndist_coeff:\n- - 0.1\n  - -0.2\n  - 0.001\n  - 0.002\n  - 0.0\n', { ...plain, ...lens }],
     ['ROS, within other fields', `left:\n  camera_info:\n    height: 480\n    width: 640\n    K:\n    - ${list.split(', ').join('\n    - ')}\n`, plain],
     ['four numbers', '525.0 520.0 319.5 239.5\n', plain],
@@ -313,6 +317,7 @@ test('cameras as ROS, OpenCV, COLMAP, nerfstudio, Metashape, ZED and others writ
     `  distortion_model: ${lens}\n  intrinsics: [${525 - i}, 520, 319.5, 239.5]\n  resolution: [640, 480]\n`).join('');
   for (const [text, message] of /** @type {[string, RegExp][]} */ ([
     ['1 OPENCV_FISHEYE 640 480 500 500 320 240 0.1 0 0 0', /lens.*OPENCV_FISHEYE.*undistort/],
+    [JSON.stringify({ fx: 500, fy: 500, cx: 320, cy: 240, distortionPolynomial: [0.1, 0.2] }), /distortionpolynomial.*lens/],
     ['1 FULL_OPENCV 640 480 500 500 320 240 0.1 0 0 0 0 0.2 0 0', /lens.*undistort/],
     ['<calibration><projection>fisheye</projection><width>640</width><height>480</height><f>300</f><cx>-4</cx><cy>0.5</cy></calibration>', /lens \(fisheye\)/],
     [JSON.stringify({ fl_x: 500, fl_y: 500, cx: 320, cy: 240, w: 640, h: 480, is_fisheye: true }), /lens \(fisheye\)/],

@@ -59,11 +59,14 @@ impl NumberType {
         NUMBER_TYPES[self as usize].2 == b'f'
     }
 
-    /// Returns the difference between the largest and the smallest number of an integer type; `None` for other types.
+    /// Returns the level of white if a picture's numbers of the type are levels, which are whole numbers of 8 or 16 bits from 0 on.
     #[cfg(feature = "formats")]
-    pub(super) fn range(self) -> Option<f64> {
-        let is_integer = !self.is_float() && self != NumberType::Bool;
-        is_integer.then(|| 256f64.powi(self.bytes() as i32) - 1.0)
+    pub(super) fn white_level(self) -> Option<f64> {
+        match self {
+            NumberType::U8 => Some(255.0),
+            NumberType::U16 => Some(65535.0),
+            _ => None,
+        }
     }
 
     /// Returns the number that stands for 1 where integers are shares: the largest of the type; for floats 1.

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import OpenEXR
+import rasterio
+from rasterio.transform import from_origin
 import tifffile
 from PIL import Image, ImageOps
 from PIL.Image import Transpose
@@ -160,3 +162,13 @@ rgba.putalpha(Image.fromarray(alpha))
 rgba.save(here / "alpha.webp", lossless=True, exact=True)
 Image.fromarray(colour).save(here / "colour.webp", lossless=True)
 Image.merge("RGB", [Image.fromarray(steps)] * 3).save(here / "lossy.webp", quality=100)
+
+# As GDAL writes them: tiles of LZW with prediction, and a mask of no data.
+place = dict(driver="GTiff", count=1, crs="EPSG:32632", transform=from_origin(4e5, 5e6, 0.5, 0.5))
+tiles = dict(width=20, height=20, tiled=True, blockxsize=16, blockysize=16, compress="lzw", predictor=2)
+with rasterio.open(here / "gdal-lzw.tif", "w", dtype="uint8", **place, **tiles) as file:
+    file.write(((np.arange(400) * 7 + 3) % 251).astype("u1").reshape(20, 20), 1)
+masked = dict(width=4, height=3, dtype="float32")
+with rasterio.Env(GDAL_TIFF_INTERNAL_MASK=True), rasterio.open(here / "gdal-mask.tif", "w", **place, **masked) as file:
+    file.write(ramp.astype("f4"), 1)
+    file.write_mask(np.arange(12).reshape(3, 4) != 1)

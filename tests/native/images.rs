@@ -60,17 +60,20 @@ fn refused_for_its_size(bytes: &[u8], what: &str) {
 fn tiffs_of_every_type() {
     for (name, data_type, expected) in of_every_type() {
         let found = check(&format!("{name}.tif"), data_type, &expected);
-        assert_eq!(
-            (found.format, found.pixel_size, found.unit),
-            (Format::Tiff, 1.0, None)
-        );
-        // A quarter of 4 pixels for the whole range of integers; floats are heights.
-        let bits: i32 = data_type[1..].parse().unwrap();
-        let scale = match &name[..1] {
-            "f" => 1.0,
-            _ => 1.0 / (2f64.powi(bits) - 1.0),
+        // A quarter of 4 pixels for the whole range of grey levels; other numbers are heights, here steep ones where they are whole.
+        let (scale, side) = match data_type {
+            "u8" => (1.0 / 255.0, 1.0),
+            "u16" => (1.0 / 65535.0, 1.0),
+            _ if name.starts_with('f') => (1.0, 1.0),
+            _ => (1.0, 60.0),
         };
-        assert_eq!(found.height_scale, scale, "{name}");
+        let told = (
+            found.format,
+            found.height_scale,
+            found.pixel_size,
+            found.unit,
+        );
+        assert_eq!(told, (Format::Tiff, scale, side, None), "{name}");
     }
 }
 
@@ -87,6 +90,9 @@ fn tiffs_of_every_layout() {
     for name in ["rgba-grey", "grey-alpha"] {
         check(&format!("{name}.tif"), "u8", &without(times(2.0), 1));
     }
+    let tiles: Vec<f64> = (0..400).map(|i| f64::from((7 * i + 3) % 251)).collect();
+    assert_eq!(read("gdal-lzw.tif").values, tiles);
+    check("gdal-mask.tif", "f32", &without(ramp(), 1));
     let inverted: Vec<f64> = ramp().iter().map(|v| 255.0 - 2.0 * v).collect();
     check("white-is-zero.tif", "u8", &inverted);
     refused("rgb-colour.tif", "UNSUPPORTED", "row 2, column 1");

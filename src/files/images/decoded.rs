@@ -33,9 +33,9 @@ pub struct Decoded {
     pub pixel_size: f64,
     /// The unit of `pixel_size`: millimetres if a TIFF has a resolution, metres if it lies on a map.
     pub unit: Option<Unit>,
-    /// Factor from the stored values to heights: `height = values · height_scale`. For NPY, NPZ and floats it is 1, or
-    /// the scale that a PFM states; for PNG as recorded by [`write_png`](super::write_png); for a GeoTIFF as its tags say, else
-    /// metres. For the integers of other pictures it is a suggestion, which is one of the assumptions: the one that makes their
+    /// Factor from the stored values to heights: `height = values · height_scale`. For NPY, NPZ and numbers that are no levels it is
+    /// 1, or the scale that a PFM states; for PNG as recorded by [`write_png`](super::write_png); for a GeoTIFF as its tags say, else
+    /// metres. For the levels of other pictures, of 8 or 16 bits, it is a suggestion, which is one of the assumptions: the one that makes their
     /// full range (from black to white) a quarter of the image's longer side.
     pub height_scale: f64,
     /// Type of number that the file stores for each pixel: `"u8"`, `"u16"`, `"f32"`, `"f64"`, …
@@ -179,15 +179,15 @@ impl StoredImage {
         let ((width, height), mut pixel_size) = (square.size, square.side);
         let mut values = square.values;
         let side = width.max(height) as f64;
-        let height_scale = match (self.height_scale, self.number_type.range()) {
+        let height_scale = match (self.height_scale, self.number_type.white_level()) {
             (Some(scale), _) => scale,
             (None, None) => 1.0,
-            (None, Some(range)) => {
+            (None, Some(white)) => {
                 assumptions.push(assumed_levels());
-                pixel_size * SUGGESTED_RELIEF_SHARE * side / range
+                pixel_size * SUGGESTED_RELIEF_SHARE * side / white
             }
         };
-        let are_heights = self.height_scale.is_some() || self.number_type.range().is_none();
+        let are_heights = self.height_scale.is_some() || self.number_type.white_level().is_none();
         if self.sides.is_none() && are_heights && are_measured {
             let found = assumed_pixel_size(&values, height_scale, side);
             if let Some((size, assumption)) = found {

@@ -1,5 +1,7 @@
 //! How large the pixels of an image are on a map, in metres, and how they lie there.
 
+use std::f64::consts::PI;
+
 use crate::files::images::decoded::differ;
 use crate::files::images::georeference::Georeference;
 
@@ -20,6 +22,22 @@ const LINEAR_UNIT_KEY: u16 = 3076;
 
 /// Number of the key `ProjLinearUnitSizeGeoKey` of the GeoTIFF format, the length of that unit in metres if it has no number.
 const LINEAR_UNIT_SIZE_KEY: u16 = 3077;
+
+/// Number of the key `GeogAngularUnitsGeoKey` of the GeoTIFF format, the unit of longitudes and latitudes.
+const ANGULAR_UNIT_KEY: u16 = 2054;
+
+/// Number of the key `GeogAngularUnitSizeGeoKey` of the GeoTIFF format, the size of that unit in radians if it has no number.
+const ANGULAR_UNIT_SIZE_KEY: u16 = 2055;
+
+/// Sizes of angular units in degrees, by their numbers in the GeoTIFF format: radian, degree, minute and second of arc, grad and gon.
+const UNIT_DEGREES: [(u16, f64); 6] = [
+    (9101, 180.0 / PI),
+    (9102, 1.0),
+    (9103, 1.0 / 60.0),
+    (9104, 1.0 / 3600.0),
+    (9105, 0.9),
+    (9106, 0.9),
+];
 
 /// Number of the TIFF tag `GeoDoubleParams`, which holds the values of some keys of the GeoTIFF format.
 const DOUBLES_TAG: u16 = 34_736;
@@ -42,6 +60,9 @@ const HEIGHTS_IN_FEET: [(u16, u16); 5] = [
 
 /// Lengths of units in metres, by their numbers in the GeoTIFF format: metre, international foot, US survey foot.
 const UNIT_METRES: [(u16, f64); 3] = [(9001, 1.0), (9002, 0.3048), (9003, 1200.0 / 3937.0)];
+
+/// Ends of the names of coordinate systems in feet, as EPSG has them, and the numbers of their units in the GeoTIFF format.
+const UNIT_NAMES: [(&str, u16); 2] = [("(ftUS)", 9003), ("(ft)", 9002)];
 
 /// Semi-major axis of the ellipsoid of the specification WGS 84, in metres.
 const ELLIPSOID_AXIS_METRES: f64 = 6_378_137.0;
@@ -82,14 +103,30 @@ impl Georeference {
         Georeference::new([across, 0.0, west, 0.0, -down, north], &WGS84_KEYS)
     }
 
-    /// Whether map coordinates are degrees of longitude and latitude.
+    /// Whether map coordinates are longitudes and latitudes.
     pub(super) fn is_geographic(&self) -> bool {
         self.key(MODEL_TYPE_KEY) == Some(MODEL_TYPE_GEOGRAPHIC)
     }
 
+    /// Size of the unit of longitudes and latitudes in degrees, which are the unit that goes without saying.
+    pub(super) fn angular_unit(&self) -> f64 {
+        let mut known = UNIT_DEGREES.into_iter();
+        let number = self.key(ANGULAR_UNIT_KEY);
+        let size = known.find_map(|(unit, size)| (Some(unit) == number).then_some(size));
+        let size = size.or_else(|| self.number(ANGULAR_UNIT_SIZE_KEY).map(f64::to_degrees));
+        size.unwrap_or(1.0)
+    }
+
     /// Length of the unit of map coordinates in metres, if the file says it.
     pub(super) fn linear_unit(&self) -> Option<f64> {
-        metres(self.key(LINEAR_UNIT_KEY)?).or_else(|| self.number(LINEAR_UNIT_SIZE_KEY))
+        // GDAL leaves the unit out of systems with heights, whose name has it.
+        let map_name = self.text.split('+').next().unwrap_or_default();
+        let named = || {
+            let mut units = UNIT_NAMES.into_iter();
+            units.find_map(|(name, unit)| map_name.contains(name).then_some(unit))
+        };
+        let unit = self.key(LINEAR_UNIT_KEY).or_else(named)?;
+        metres(unit).or_else(|| self.number(LINEAR_UNIT_SIZE_KEY))
     }
 
     /// Length of the unit of heights in metres, if the file says it.
@@ -110,7 +147,7 @@ impl Georeference {
         let [i, j] = [width, height].map(|side| 0.5 * (side as f64 - ends));
         let north = d * i + e * j + f;
         if self.is_geographic() {
-            return Some(north);
+            return Some(north * self.angular_unit());
         }
         let on_sphere = (north / ELLIPSOID_AXIS_METRES).sinh().atan();
         (self.key(MAP_SYSTEM_KEY) == Some(WEB_MERCATOR)).then_some(on_sphere.to_degrees())
@@ -120,7 +157,9 @@ impl Georeference {
     pub(super) fn pixel_sides(&self, size: (usize, usize)) -> [f64; 2] {
         let [a, b, _, d, e, _] = self.transformation;
         let [x, y] = match self.latitude(size) {
-            Some(latitude) if self.is_geographic() => metres_per_degree(latitude),
+            Some(latitude) if self.is_geographic() => {
+                metres_per_degree(latitude).map(|degree| degree * self.angular_unit())
+            }
             // The map is that of a sphere: its degree of longitude is that of the equator everywhere.
             Some(latitude) => {
                 let [x, y] = metres_per_degree(latitude);
@@ -222,6 +261,36 @@ mod tests {
         let mut map = Georeference::new([0.5, 0.0, 0.0, 0.0, -0.5, 0.0], &keys);
         map.doubles = vec![7.0, 1000.0];
         assert_eq!(map.pixel_size((2, 2)), 500.0);
+        // As GDAL writes systems with heights: the name of the map alone counts.
+        let keys = [
+            1, 1, 1, 3, 1024, 0, 1, 1, 3072, 0, 1, 2263, 4096, 0, 1, 6360,
+        ];
+        let mut map = Georeference::new([3937.0, 0.0, 0.0, 0.0, -3937.0, 0.0], &keys);
+        for (name, side) in [
+            ("New York (ftUS) + NAVD88 height", 1200.0),
+            ("zone 18N + height (ftUS)", 3937.0),
+        ] {
+            map.text = name.to_owned();
+            assert!((map.pixel_size((2, 2)) - side).abs() < 1e-9, "{name}");
+        }
+    }
+
+    #[test]
+    fn grads_are_a_tenth_shorter_than_degrees() {
+        // As GDAL writes NTF (Paris): 50 grads are 45 degrees.
+        let keys = |unit: u16| {
+            let place = [
+                1, 1, 0, 3, 1024, 0, 1, 2, 2048, 0, 1, 4807, 2054, 0, 1, unit,
+            ];
+            Georeference::new([1e-3, 0.0, 3.0, 0.0, -1e-3, 50.0], &place)
+        };
+        assert_eq!(keys(9105).latitude((0, 0)), Some(45.0));
+        let [x, y] = keys(9105).pixel_sides((0, 0));
+        assert!(
+            (x - 70.962).abs() < 1e-3 && (y - 100.019).abs() < 1e-3,
+            "{x} {y}"
+        );
+        assert_eq!(keys(9102).latitude((0, 0)), Some(50.0));
     }
 
     #[test]

@@ -53,14 +53,19 @@ pub(super) fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<StoredImag
 
     let mut raw = try_filled("TIFF image", needed, 0u8)?;
     file.read_image_bytes(&mut raw).map_err(failed)?;
-    let values = grey(stored, &channels, |i, k| {
+    let mut values = grey(stored, &channels, |i, k| {
         kind.value(
             &raw[size * (samples * i + k)..][..size],
             cfg!(target_endian = "big"),
         )
     })?;
     let mut image = about.image;
-    if tiff_tags::has_more_images(&mut file) {
+    let further = tiff_tags::further_images(&mut file, stored)?;
+    let masked = values.iter_mut().zip(further.mask.unwrap_or_default());
+    masked
+        .filter(|(_, has_data)| !has_data)
+        .for_each(|(value, _)| *value = f64::NAN);
+    if further.has_others {
         let words = "the first of several images is meant";
         (image.assumptions).push(Assumption::new("firstImage", words, None));
     }

@@ -1,16 +1,20 @@
-//! Opens TIFF files for the `tiff` crate, and decompresses strips and tiles that Zstandard has compressed, as GDAL writes them.
+//! Opens TIFF files for the `tiff` crate, and decompresses strips and tiles that Zstandard or LZW have compressed, as GDAL writes
+//! them.
 //!
-//! The crate takes the C library for that. So such a file is written anew for it in memory, with the same directory but
-//! plain strips, whose prediction it undoes.
+//! The crate takes the C library for the first, and takes some data of the second for cut short. So such a file is written anew
+//! for it in memory, with the same directory but plain strips, whose prediction it undoes.
 
 use std::borrow::Cow;
 use std::io::{Cursor, ErrorKind, Read};
 
 use ::ruzstd::decoding::StreamingDecoder;
-use ::tiff::decoder::{ChunkType, Decoder, Limits};
+use ::tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
 use ::tiff::tags::{ByteOrder, CompressionMethod, Tag};
 use ::tiff::{TiffError, TiffUnsupportedError};
+use ::weezl::decode::Decoder as LzwDecoder;
+use ::weezl::{BitOrder, LzwStatus};
 
+use super::tiff_tags::REDUCED_IMAGE_BIT;
 use crate::error::{Error, Result};
 use crate::files::failure::{damaged, not_read};
 
@@ -45,9 +49,6 @@ pub(crate) fn open<'a>(bytes: &'a [u8], max_bytes: usize) -> Result<File<'a>> {
     }
 }
 
-/// Bit of the TIFF tag `NewSubfileType` of an image that is another one at a lower resolution.
-const REDUCED_IMAGE_BIT: u16 = 1;
-
 /// Number of the TIFF type of unsigned numbers of 32 bits.
 const LONG: u64 = 4;
 /// Number of the TIFF type of unsigned numbers of 64 bits.
@@ -61,40 +62,31 @@ fn chunk_tags(file: &File) -> [Tag; 2] {
     }
 }
 
-/// Returns the file with plain strips or tiles; `None` if those of its first image are not compressed by Zstandard. They have
-/// `max_bytes` together at most.
+/// Returns the file with plain strips or tiles; `None` if those of its first image are compressed neither by Zstandard nor by LZW.
+/// They have `max_bytes` together at most.
 fn inflated(bytes: &[u8], file: &mut File, max_bytes: usize) -> Result<Option<Vec<u8>>> {
     let method = file.find_tag_unsigned(Tag::Compression).map_err(failed)?;
-    if method != Some(CompressionMethod::ZSTD.to_u16()) {
-        return Ok(None);
-    }
+    let inflate = match method.map(CompressionMethod::from_u16_exhaustive) {
+        Some(CompressionMethod::ZSTD) => inflate_zstandard,
+        Some(CompressionMethod::LZW) => inflate_lzw,
+        _ => return Ok(None),
+    };
     let tags = chunk_tags(file);
     let [offsets, counts] = tags.map(|tag| file.get_tag_u64_vec(tag).map_err(failed));
     let mut plain = bytes.to_vec();
     let mut places = [Vec::new(), Vec::new()];
-    let mut left = max_bytes;
     for (offset, count) in offsets?.into_iter().zip(counts?) {
         let end = offset.saturating_add(count).min(usize::MAX as u64) as usize;
         let compressed =
             (bytes.get(offset as usize..end)).ok_or_else(|| damaged("it is cut short"))?;
         let start = plain.len();
         if !compressed.is_empty() {
-            let decoder = StreamingDecoder::new(compressed).map_err(damaged)?;
-            let read = decoder.take(left as u64 + 1).read_to_end(&mut plain);
-            left = (left.checked_sub(read.map_err(damaged)?)).ok_or_else(|| {
-                let reason = "more data compressed by Zstandard than are read; `gdal_translate -co COMPRESS=DEFLATE \
-                              IN.tif OUT.tif` writes one that is read";
-                not_read(reason)
-            })?;
+            inflate(compressed, &mut plain, bytes.len() + max_bytes)?;
         }
         places[0].push(start as u64);
         places[1].push((plain.len() - start) as u64);
     }
-    let directory = Directory {
-        start: file.ifd_pointer().map_or(0, |place| place.0 as usize),
-        order: file.byte_order(),
-        is_big: [bytes[2], bytes[3]].contains(&BIG_TIFF_MARK),
-    };
+    let directory = Directory::of(file);
     let [offsets, counts] = places;
     for (tag, values) in [
         (Tag::Compression, vec![1]),
@@ -105,6 +97,54 @@ fn inflated(bytes: &[u8], file: &mut File, max_bytes: usize) -> Result<Option<Ve
         replaced.ok_or_else(|| damaged("its directory is cut short"))?;
     }
     Ok(Some(plain))
+}
+
+/// Reads the mask that a file has for its image number `index`, whose tags the file is at.
+pub(super) fn mask(file: &mut File, index: usize) -> Result<Vec<u8>> {
+    let directory = Directory::of(file);
+    // The decoder takes bits of grey, but none of a mask.
+    let bytes = file.inner().get_mut().to_mut();
+    directory.replace(bytes, Tag::PhotometricInterpretation, &[1]);
+    file.seek_to_image(index).map_err(failed)?;
+    match file.read_image().map_err(failed)? {
+        DecodingResult::U8(bytes) => Ok(bytes),
+        _ => Err(not_read("a mask of other numbers than bits")),
+    }
+}
+
+/// Appends decompressed data, up to a length of the whole.
+fn inflate_zstandard(compressed: &[u8], plain: &mut Vec<u8>, max_length: usize) -> Result<()> {
+    let decoder = StreamingDecoder::new(compressed).map_err(damaged)?;
+    let left = max_length.saturating_sub(plain.len());
+    let read = decoder.take(left as u64 + 1).read_to_end(plain);
+    read.map_err(damaged)?;
+    check_inflated(plain, max_length)
+}
+
+/// Number of bytes that LZW decodes at a time.
+const LZW_BLOCK_BYTES: usize = 1 << 16;
+
+/// Appends decompressed data, up to a length of the whole. What follows the end of the code is padding, and the end may be missing.
+fn inflate_lzw(mut compressed: &[u8], plain: &mut Vec<u8>, max_length: usize) -> Result<()> {
+    let mut decoder = LzwDecoder::with_tiff_size_switch(BitOrder::Msb, 8);
+    loop {
+        let start = plain.len();
+        plain.resize(start + LZW_BLOCK_BYTES, 0);
+        let step = decoder.decode_bytes(compressed, &mut plain[start..]);
+        plain.truncate(start + step.consumed_out);
+        compressed = &compressed[step.consumed_in..];
+        check_inflated(plain, max_length)?;
+        if !matches!(step.status.map_err(damaged)?, LzwStatus::Ok) {
+            return Ok(());
+        }
+    }
+}
+
+fn check_inflated(plain: &[u8], max_length: usize) -> Result<()> {
+    let reason = "more compressed data than are read; `gdal_translate -co COMPRESS=DEFLATE IN.tif OUT.tif` writes one that is read";
+    (plain.len() <= max_length)
+        .then_some(())
+        .ok_or_else(|| not_read(reason))
 }
 
 /// One of the first four bytes of a BigTIFF file, which tells it from another TIFF.
@@ -119,6 +159,17 @@ struct Directory {
 }
 
 impl Directory {
+    /// The directory of the image that a decoder is at.
+    fn of(file: &mut File) -> Self {
+        let mark = file.inner().get_ref().get(2..4);
+        let is_big = mark.is_some_and(|mark| mark.contains(&BIG_TIFF_MARK));
+        Directory {
+            start: file.ifd_pointer().map_or(0, |place| place.0 as usize),
+            order: file.byte_order(),
+            is_big,
+        }
+    }
+
     /// Replaces the values of a tag of the directory; `None` if it is not there or cut short.
     fn replace(&self, file: &mut Vec<u8>, tag: Tag, values: &[u64]) -> Option<()> {
         let (head, width, kind) = match self.is_big {

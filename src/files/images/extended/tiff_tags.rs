@@ -5,7 +5,7 @@ use ::tiff::decoder::ifd::Value;
 use ::tiff::tags::Tag;
 use nalgebra::{Matrix3, Matrix3x2, RowVector2, Vector3};
 
-use super::tiff_file::{File, failed};
+use super::tiff_file::{self, File, failed};
 use crate::error::Result;
 use crate::files::failure::{damaged, not_read};
 use crate::files::images::decode_options::DecodeOptions;
@@ -26,18 +26,52 @@ pub(crate) fn chunky_layout(file: &mut File) -> Result<BufferLayoutPreference> {
     Ok(layout)
 }
 
-/// Bits of the TIFF tag `NewSubfileType` of an image that is another one at a lower resolution, or its mask.
-const SUBORDINATE_IMAGE_BITS: u16 = 0b101;
+/// Bit of the TIFF tag `NewSubfileType` of an image that is another one at a lower resolution.
+pub(super) const REDUCED_IMAGE_BIT: u16 = 1;
 
-/// Returns whether images of their own follow in a TIFF file; overviews and masks are none.
-pub(super) fn has_more_images(file: &mut File) -> bool {
-    while file.more_images() && file.next_image().is_ok() {
+/// Bit of the TIFF tag `NewSubfileType` of the mask of an image, in which 0 stands for no data.
+const MASK_BIT: u16 = 4;
+
+/// What follows the first image of a TIFF file.
+#[derive(Default)]
+pub(super) struct FurtherImages {
+    /// Whether there are images of their own; overviews and masks are none.
+    pub(super) has_others: bool,
+    /// Whether each pixel of the first image has data, if it has a mask.
+    pub(super) mask: Option<Vec<bool>>,
+}
+
+/// Reads what follows the first image of a TIFF file, which has `width` columns and `height` rows.
+pub(super) fn further_images(
+    file: &mut File,
+    (width, height): (usize, usize),
+) -> Result<FurtherImages> {
+    let mut found = FurtherImages::default();
+    for index in 1.. {
+        if !file.more_images() || file.next_image().is_err() {
+            break;
+        }
         let kind = unsigned(file, Tag::NewSubfileType).ok().flatten();
-        if kind.unwrap_or(0) & SUBORDINATE_IMAGE_BITS == 0 {
-            return true;
+        match kind.unwrap_or(0) & (REDUCED_IMAGE_BIT | MASK_BIT) {
+            0 => found.has_others = true,
+            MASK_BIT => {
+                let bytes = tiff_file::mask(file, index)?;
+                // Rows of bits begin at a byte.
+                let row_bytes = width.div_ceil(8);
+                let is_set = |i: usize| match bytes.len() == width * height {
+                    true => bytes[i] != 0,
+                    false => {
+                        let [x, y] = [i % width, i / width];
+                        let byte = bytes.get(y * row_bytes + x / 8).copied();
+                        byte.unwrap_or_default() << (x % 8) & 0x80 != 0
+                    }
+                };
+                found.mask = Some((0..width * height).map(is_set).collect());
+            }
+            _ => {}
         }
     }
-    false
+    Ok(found)
 }
 
 /// Value of the tag `ResolutionUnit` of the TIFF format for no unit.
@@ -246,9 +280,10 @@ pub(super) fn map_sides(
         return Err(damaged(reason));
     }
     if let Some(latitude) = map.latitude(size) {
-        let (code, what) = match map.is_geographic() {
-            true => ("degrees", "degrees"),
-            false => ("webMercator", "lengths on the Web Mercator map"),
+        let (code, what) = match (map.is_geographic(), map.angular_unit()) {
+            (true, 1.0) => ("degrees", "degrees".to_owned()),
+            (true, unit) => ("degrees", format!("angles in units of {unit} degrees")),
+            (false, _) => ("webMercator", "lengths on the Web Mercator map".to_owned()),
         };
         let words = format!("{what} are metres at the latitude {latitude:.4} of the middle");
         assumptions.push(Assumption::new(code, words, "pixelSize"));

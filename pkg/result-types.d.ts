@@ -963,6 +963,8 @@ export interface NpzArray {
   shape: number[];
   /** Type of number, such as `'f32'`; NumPy's own name for a type that is no number. */
   dataType: string;
+  /** Whether it may be an image of heights: rows and columns of numbers, more than the matrix of a camera has. */
+  mayBeImage: boolean;
 }
 
 /** Edges of a page in a photo, as points from corner to corner in the photo's pixels. */

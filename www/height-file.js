@@ -37,14 +37,14 @@ export async function readInput(api, file, signal, { array, noData } = {}, photo
 }
 
 /**
- * Names of the two-dimensional arrays of an NPZ file; an empty list for other files.
+ * Names of the arrays of an NPZ file that may be images; an empty list for other files.
  * @param {PackageWorker} reader
  * @param {File} file
  */
 async function heightArrayNames(reader, file) {
   if (!/\.npz$/i.test(file.name)) return [];
   const arrays = await reader.npzArrays(file);
-  return arrays.filter(({ shape, dataType }) => shape.length === 2 && /^[uif]\d+$/.test(dataType)).map(({ name }) => name);
+  return arrays.filter(({ mayBeImage }) => mayBeImage).map(({ name }) => name);
 }
 
 /** @param {string} type such as `u16` */

@@ -179,7 +179,7 @@ export const sections = {
         help: "factor from the file's values to heights (default: what the file says, 1 for floats, NPY and NPZ; for " +
           'other whole numbers white is a quarter of the longer side above black)',
       },
-      array: { value: 'NAME', help: 'the array of an NPZ file, where it holds several' },
+      array: { value: 'NAME', help: 'the array of an NPZ file or the channel of an EXR file, where several may have heights' },
       mask: {
         value: 'FILE',
         help: 'image of the same shape; heights where it is 0 are discarded. Of depths it may have any size, as one that was drawn on the photo',

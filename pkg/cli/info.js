@@ -13,10 +13,13 @@ import { print } from './terminal.js';
 export async function info({ input, array }) {
   const bytes = await readBytes(input);
   const lines = await about(input, async () => {
-    if (isArchive(bytes) && !isMesh(input) && array === undefined) return arraysInWords(await developable.npzArrays(bytes));
-    const file = isMesh(input) ? await readMeshFile(input, bytes) : await developable.read(bytes, { array, name: basename(input) });
+    const read = () => (isMesh(input) ? readMeshFile(input, bytes) : developable.read(bytes, { array, name: basename(input) }));
+    const listed = isArchive(bytes) && !isMesh(input) && array === undefined ? arraysInWords(await developable.npzArrays(bytes)) : [];
+    // Several arrays are listed, to choose one.
+    const file = listed.length > 0 ? await read().catch(() => undefined) : await read();
+    if (file === undefined) return listed;
     const told = 'positions' in file ? meshInWords(file) : imageInWords(file);
-    return [...told, ...assumptionsInWords(file).map((words) => ['assumed', words])];
+    return [...listed, ...told.slice(listed.length > 0 ? 1 : 0), ...assumptionsInWords(file).map((words) => ['assumed', words])];
   });
   await print(lines.map(([name, value]) => `${`${name}:`.padEnd(14)}${value}\n`).join(''));
 }

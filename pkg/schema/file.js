@@ -8,7 +8,9 @@ import { Format } from './names.js';
 export const read = {
   /** Format of the file. Default: detected from its first bytes. */
   format: { kind: choice(...Format), type: 'Format' },
-  /** Name of the array to read from an NPZ file; needed only where the file holds several. */
+  /**
+   * Name of the array to read from an NPZ file, or of the channel of an EXR file; needed only where several may have heights.
+   */
   array: { kind: text },
   /** Name of the file, which may say what is in it: `depth` in it makes depths of numbers that may be some. */
   name: { kind: text },

@@ -8,10 +8,10 @@ use crate::error::{Result, checked_cells, try_filled};
 const MAX_OFF_GRID_SHARE: f64 = 0.02;
 
 /// Minimum number of lines of a cloud of points, in numbers of a line: fewer are a small matrix.
-const MIN_CLOUD_LINES_PER_COLUMN: usize = 10;
+pub(super) const MIN_CLOUD_LINES_PER_COLUMN: usize = 10;
 
 /// Maximum number of numbers of a point in the formats of scanners: a place, a colour with its opacity, and a normal.
-const MAX_POINT_NUMBERS: usize = 10;
+pub(super) const MAX_POINT_NUMBERS: usize = 10;
 
 /// Lines of equally many numbers; NaN where a cell is empty.
 #[cfg_attr(not(feature = "images"), allow(dead_code))]

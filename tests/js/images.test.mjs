@@ -72,7 +72,7 @@ test('units come with the pixel size', async () => {
 test('arrays of an archive are chosen by name', async () => {
   const bytes = await data('several.npz');
   const arrays = [['depth', [3, 4], 'f64'], ['confidence', [3, 4], 'u8'], ['name', [1], '<U1']]
-    .map(([name, shape, dataType]) => ({ name, shape, dataType }));
+    .map(([name, shape, dataType]) => ({ name, shape, dataType, mayBeImage: false }));
   assert.deepEqual(direct.npzArrays(bytes), arrays);
   assert.deepEqual(await developable.npzArrays(bytes), arrays);
   assert.throws(() => direct.read(bytes), error('UNSUPPORTED', /`depth`, `confidence`.*option `array`/));

@@ -1,10 +1,12 @@
 //! Height and depth images: those of other programs, exact round trips, damage.
 
+use std::io::{Cursor, Write};
+
 use developable::dewarp::Photo;
 use developable::files::Unit;
 use developable::files::images::{
     DecodeOptions, Decoded, Format, PhotoOptions, decode, decode_photo, decode_with, format_name,
-    npz_arrays, write_exr, write_photo_jpeg, write_tiff,
+    npz_arrays, write_exr, write_npy, write_photo_jpeg, write_tiff,
 };
 use developable::{Error, HeightImage};
 use proptest::prelude::*;
@@ -251,6 +253,28 @@ fn npz_archives_by_name() {
             ("confidence", &[3, 4], "u8"),
             ("name", &[1], "<U1")
         ]
+    );
+}
+
+#[test]
+fn the_only_image_beside_a_camera_is_read_and_said() {
+    let arrays = |names: &[(&str, [usize; 2])]| {
+        let mut file = zip::ZipWriter::new(Cursor::new(Vec::new()));
+        for (name, [rows, cols]) in names {
+            let array = write_npy(*rows, *cols, &vec![1.5; rows * cols]).unwrap();
+            let stored = zip::write::SimpleFileOptions::default();
+            file.start_file(format!("{name}.npy"), stored).unwrap();
+            file.write_all(&array).unwrap();
+        }
+        decode(&file.finish().unwrap().into_inner(), None)
+    };
+    let read = arrays(&[("K", [3, 3]), ("depth", [5, 6]), ("pose", [4, 4])]).unwrap();
+    assert_eq!((read.width, read.assumptions[0].code), (6, "array"));
+    assert!(read.assumptions[0].words.contains("`depth` is meant"));
+    let error = arrays(&[("near", [5, 6]), ("far", [5, 6])]).unwrap_err();
+    assert!(
+        error.to_string().contains("`near`, `far`; choose one"),
+        "{error}"
     );
 }
 

@@ -7,7 +7,7 @@ use crate::files::image_format::Format;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct DecodeOptions {
-    /// Name of the array of an NPZ file; `None`: the only one.
+    /// Name of the array of an NPZ file or of the channel of an EXR file; `None`: the only one that may have heights.
     pub array: Option<String>,
     /// Name of the file, which may say what is in it; empty if it is not known.
     pub name: String,
@@ -32,7 +32,7 @@ impl Default for DecodeOptions {
 }
 
 impl DecodeOptions {
-    /// Sets the name of the array of an NPZ file, and returns the options.
+    /// Sets the name of the array of an NPZ file or of the channel of an EXR file, and returns the options.
     pub fn array(mut self, name: impl Into<String>) -> Self {
         self.array = Some(name.into());
         self
@@ -65,8 +65,8 @@ impl DecodeOptions {
     /// Returns an error if an array is named for a file that has no named arrays.
     pub(super) fn check(&self, format: Format) -> Result<()> {
         match &self.array {
-            Some(name) if format != Format::Npz => {
-                let requirement = "is for NPZ files, and this is none";
+            Some(name) if !matches!(format, Format::Npz | Format::Exr) => {
+                let requirement = "is for NPZ and EXR files, and this is neither";
                 Err(Error::option("array", name, requirement))
             }
             _ => Ok(()),

@@ -65,10 +65,11 @@ pub use print::{PhotoOptions, PhotoRows, write_photo, write_photo_jpeg};
 ///   floats of 16 to 64, in strips or tiles, plain or compressed by Deflate, Zstandard,
 ///   LZW or PackBits; the first image of a file of several. The orientation is
 ///   honoured. No data is an alpha of 0 and what the tag `GDAL_NODATA` names.
-/// - **EXR**: of the first layer that has it, the channel `Z` or `depth`, else
-///   `Y`, else `R`, `G`, `B` where all are equal, or the only one there is.
+/// - **EXR**: of the first layer that has it, the channel `Z`, `depth` or `height`, else
+///   `Y`, else `R`, `G`, `B` where all are equal, or the only one there is;
+///   [`decode_with`] chooses one by name.
 /// - **PFM**, **PGM**: grey, either byte order; PGM as bytes or text.
-/// - **NPZ**: the only array; [`decode_with`] chooses one by name.
+/// - **NPZ**: the only array that may be an image; [`decode_with`] chooses one by name.
 /// - **Text**: a grid of ESRI or Surfer, points on a grid (XYZ) in any order, or a
 ///   matrix, with blanks, tabs, semicolons or commas between its numbers.
 /// - **SRTM** (`.hgt`): a square of one degree, at the latitude that the file's name says.

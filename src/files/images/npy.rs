@@ -9,6 +9,7 @@ use crate::error::{Error, Result, check_shape};
 use crate::files::buffer::Buffer;
 use crate::files::failure::{damaged, not_read};
 use crate::files::number_type::NumberType;
+use crate::files::table::{MAX_POINT_NUMBERS, MIN_CLOUD_LINES_PER_COLUMN};
 
 /// Maximum length of the header of an NPY file, in bytes; NumPy has the same limit.
 const MAX_HEADER_BYTES: usize = 10_000;
@@ -18,12 +19,18 @@ const ALIGNMENT: usize = 64;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let (header, stored) = Header::read(bytes)?;
-    let (height, width) = header.rows_and_columns().ok_or_else(|| {
+    let (height, width) = rows_and_columns(&header.shape).ok_or_else(|| {
         not_read(format!(
             "an array of shape {:?}; only two-dimensional arrays (rows, columns) are read",
             header.shape
         ))
     })?;
+    if (3..=MAX_POINT_NUMBERS).contains(&width) && height >= MIN_CLOUD_LINES_PER_COLUMN * width {
+        return Err(not_read(format!(
+            "an array of {height} × {width}, which are points and no image; `numpy.savetxt('points.xyz', array)` writes a file that is \
+             read"
+        )));
+    }
     let descr = header.descr;
     if descr.starts_with('[') {
         return Err(not_read(
@@ -128,20 +135,6 @@ impl<'a> Header<'a> {
         ))
     }
 
-    /// Numbers of rows and columns, without axes of length 1 before and after those two.
-    fn rows_and_columns(&self) -> Option<(usize, usize)> {
-        let mut axes = &self.shape[..];
-        while axes.len() > 2 {
-            axes = match axes {
-                [rest @ .., 1] | [1, rest @ ..] => rest,
-                _ => return None,
-            };
-        }
-        let [rows, cols] = *axes else { return None };
-        let bounded = |n: u64| usize::try_from(n).unwrap_or(usize::MAX);
-        Some((bounded(rows), bounded(cols)))
-    }
-
     /// Type of the numbers, if they are read.
     fn number_type(&self) -> Option<NumberType> {
         let plain = self.descr.trim_start_matches(['<', '>', '=', '|']);
@@ -150,6 +143,20 @@ impl<'a> Header<'a> {
         };
         NumberType::from_numpy(kind, usize::from(digit.wrapping_sub(b'0')))
     }
+}
+
+/// Numbers of rows and columns of an array, without axes of length 1 before and after those two.
+pub(super) fn rows_and_columns(shape: &[u64]) -> Option<(usize, usize)> {
+    let mut axes = shape;
+    while axes.len() > 2 {
+        axes = match axes {
+            [rest @ .., 1] | [1, rest @ ..] => rest,
+            _ => return None,
+        };
+    }
+    let [rows, cols] = *axes else { return None };
+    let bounded = |n: u64| usize::try_from(n).unwrap_or(usize::MAX);
+    Some((bounded(rows), bounded(cols)))
 }
 
 /// Parses one extent of a shape; Python 2 wrote an `L` after it.
@@ -229,11 +236,11 @@ mod tests {
                 assert_eq!(found.values, expected, "{shape} {order}");
             }
         }
-        let header = "{'descr': '|u1', 'fortran_order': False, 'shape': (3, 2, 2), }";
-        assert_eq!(
-            decode(&file(header, &[0; 12])).unwrap_err().code(),
-            "UNSUPPORTED"
-        );
+        for (shape, words) in [("(3, 2, 2)", "only two-dimensional"), ("(99, 3)", "points")] {
+            let header = format!("{{'descr': '|u1', 'fortran_order': False, 'shape': {shape}, }}");
+            let error = decode(&file(&header, &[0; 297])).unwrap_err().to_string();
+            assert!(error.contains(words), "{error}");
+        }
     }
 
     #[test]

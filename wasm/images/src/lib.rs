@@ -40,6 +40,8 @@ struct ArrayOutput {
     shape: Vec<f64>,
     /// Type of number, such as `'f32'`; NumPy's own name for a type that is no number.
     data_type: String,
+    /// Whether it may be an image of heights: rows and columns of numbers, more than the matrix of a camera has.
+    may_be_image: bool,
 }
 
 /// Lists the arrays of an NPZ file: names, shapes and types.
@@ -53,6 +55,7 @@ pub fn arrays(bytes: &Uint8Array) -> Result<JsValue> {
             name: array.name,
             shape: array.shape.into_iter().map(|n| n as f64).collect(),
             data_type: array.data_type,
+            may_be_image: array.may_be_image,
         })
         .collect();
     Ok(to_value(&arrays)?)

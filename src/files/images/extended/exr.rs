@@ -13,6 +13,7 @@ use ::exr::prelude::{
 
 use super::samples::narrowed;
 use crate::error::{Error, Result, checked_cells, try_filled};
+use crate::files::Assumption;
 use crate::files::buffer::reserve;
 use crate::files::failure::{check_length, damaged, not_read};
 use crate::files::images::decoded::{StoredImage, recorded_sides};
@@ -23,9 +24,11 @@ use crate::heights::heightfield::HeightImage;
 /// Name of the OpenEXR attribute that holds the pixel size; only files written by this library have it.
 const PIXEL_SIZE: &str = "developable:pixelSize";
 
-pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
+/// Decodes the channel of a given name, or the one that has heights by its name.
+pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Result<StoredImage> {
     let reader = ::exr::block::read(Cursor::new(bytes), false).map_err(failed)?;
-    let (layer, header, chosen) = choose_layer(reader.headers())?;
+    let (layer, chosen) = choose_channels(reader.headers(), channel)?;
+    let header = &reader.headers()[layer];
     let Vec2(width, height) = header.layer_size;
     let len = checked_cells("EXR image", height, width)?;
     if len == 0 {
@@ -91,6 +94,9 @@ pub(super) fn decode(bytes: &[u8]) -> Result<StoredImage> {
     let values = grey(size, &layout, |i, k| planes[k][i])?;
     Ok(StoredImage {
         sides: pixel_size.and_then(recorded_sides),
+        // Pictures have levels from 0 to 1: whole numbers are what they say.
+        height_scale: Some(1.0),
+        assumptions: chosen.assumption.into_iter().collect(),
         ..StoredImage::new(size, values, number_type)
     })
 }
@@ -111,6 +117,8 @@ fn fill<T: Into<f64>>(
 struct ChosenChannels {
     heights: Vec<usize>,
     alpha: Option<usize>,
+    /// What is said where other channels have heights, too.
+    assumption: Option<Assumption>,
 }
 
 /// A channel of an OpenEXR file: its layer and its index there, the group to which it belongs, and its name, in small letters.
@@ -119,62 +127,70 @@ struct NamedChannel {
     index: usize,
     group: String,
     name: String,
+    /// Group and name as the file has them.
+    full: String,
 }
 
-/// Finds the channels of an OpenEXR file that hold heights; returns the number of their layer, its header and the channels.
-fn choose_layer(layers: &[Header]) -> Result<(usize, &Header, ChosenChannels)> {
-    let flat = || layers.iter().enumerate().filter(|(_, header)| !header.deep);
-    let named: Vec<NamedChannel> = flat().flat_map(named_channels).collect();
-    let Some((layer, chosen)) = heights_among(&named, layers) else {
-        let names: Vec<String> = flat()
-            .flat_map(|(_, header)| &header.channels.list)
-            .map(|channel| format!("`{}`", channel.name))
+/// Names of channels of heights or depths, the surest first.
+const HEIGHT_NAMES: [&str; 6] = ["z", "depth", "height", "elevation", "displacement", "y"];
+
+/// Finds the channels of an OpenEXR file that hold heights, or the one of a given name; returns the number of their layer and the
+/// channels.
+fn choose_channels(layers: &[Header], wanted: Option<&str>) -> Result<(usize, ChosenChannels)> {
+    let flat = layers.iter().enumerate().filter(|(_, header)| !header.deep);
+    let named: Vec<NamedChannel> = flat.flat_map(named_channels).collect();
+    let Some((layer, chosen)) = heights_among(&named, layers, wanted) else {
+        let names: Vec<String> = (named.iter())
+            .map(|channel| format!("`{}`", channel.full))
             .collect();
-        let reason = match names[..] {
-            [] => "deep data; only flat images are read".into(),
-            _ => format!(
-                "its channels are {}; `Z`, `depth` or `Y` is read, grey `R`, `G`, `B`, or the only one there is",
-                names.join(", ")
+        let names = names.join(", ");
+        return Err(not_read(match wanted {
+            _ if named.is_empty() => "deep data; only flat images are read".into(),
+            Some(wanted) => format!("it has no channel `{wanted}`, only {names}"),
+            None => format!(
+                "its channels are {names}; `Z`, `depth`, `height` or `Y` is read, grey `R`, `G`, `B`, or the only one there is; \
+                 choose one by the option `array`"
             ),
-        };
-        return Err(not_read(reason));
+        }));
     };
-    let header = &layers[layer];
     // The decoder assumes longer lines than subsampled channels have.
     let is_plain = |channel: &ChannelDescription| channel.sampling == Vec2(1, 1);
-    if !header.channels.list.iter().all(is_plain) {
+    if !layers[layer].channels.list.iter().all(is_plain) {
         let reason = "subsampled channels; write it with one sample for each pixel";
         return Err(not_read(reason));
     }
-    Ok((layer, header, chosen))
+    Ok((layer, chosen))
 }
 
 /// The channels of a layer. Their names begin with their group, or it is the layer of that name.
 fn named_channels((layer, header): (usize, &Header)) -> impl Iterator<Item = NamedChannel> {
     let layer_name = header.own_attributes.layer_name.as_ref();
     (header.channels.list.iter().enumerate()).map(move |(index, channel)| {
-        let full = channel.name.to_string().to_lowercase();
-        let (group, name) = match full.rsplit_once('.') {
-            Some((group, name)) => (group.to_owned(), name),
-            None => (
-                layer_name.map_or(String::new(), |name| name.to_string().to_lowercase()),
-                &*full,
-            ),
+        let own = channel.name.to_string();
+        let full = match layer_name.filter(|_| !own.contains('.')) {
+            Some(layer_name) => format!("{layer_name}.{own}"),
+            None => own,
         };
+        let lower = full.to_lowercase();
+        let (group, name) = lower.rsplit_once('.').unwrap_or(("", &lower));
         NamedChannel {
             layer,
             index,
-            group,
+            group: group.to_owned(),
             name: name.to_owned(),
+            full,
         }
     })
 }
 
 /// Chooses among the channels of all layers, since a picture often stands before its depths.
-fn heights_among(named: &[NamedChannel], layers: &[Header]) -> Option<(usize, ChosenChannels)> {
+fn heights_among(
+    named: &[NamedChannel],
+    layers: &[Header],
+    wanted: Option<&str>,
+) -> Option<(usize, ChosenChannels)> {
     // Blender calls the value of its depth pass `Depth.Z` or `Depth.V`; other passes have a `Z` of their own.
-    let of_depth = |one: &&NamedChannel| one.group.rsplit('.').next() == Some("depth");
-    let depth = || (named.iter().filter(of_depth)).find(|one| ["v", "z"].contains(&&*one.name));
+    let of_depth = |one: &NamedChannel| one.group.rsplit('.').next() == Some("depth");
     let beside = |one: &NamedChannel, wanted: &str| {
         named.iter().find(|other| {
             (other.layer, &other.group, &*other.name) == (one.layer, &one.group, wanted)
@@ -182,25 +198,47 @@ fn heights_among(named: &[NamedChannel], layers: &[Header]) -> Option<(usize, Ch
     };
     // The coordinates of a normal or of a place in the scene are no depths.
     let is_of_vector = |one: &NamedChannel| !one.group.is_empty() && beside(one, "x").is_some();
-    let called = |wanted: &str| (named.iter()).find(|one| one.name == wanted && !is_of_vector(one));
-    let grey = || {
-        (named.iter().filter(of_depth).chain(named)).find_map(|one| {
-            (["r", "g", "b"].into_iter())
-                .map(|name| beside(one, name))
-                .collect::<Option<Vec<_>>>()
-        })
+    let single = |is_meant: &dyn Fn(&NamedChannel) -> bool| -> Vec<Vec<&NamedChannel>> {
+        let meant = named.iter().filter(|one| is_meant(one));
+        meant.map(|one| vec![one]).collect()
     };
-    let only = || {
-        named
-            .iter()
-            .find(|one| layers[one.layer].channels.list.len() == 1)
+    let grey = |is_meant: &dyn Fn(&NamedChannel) -> bool| -> Vec<Vec<&NamedChannel>> {
+        let reds = named.iter().filter(|one| one.name == "r" && is_meant(one));
+        reds.filter_map(|red| Some(vec![red, beside(red, "g")?, beside(red, "b")?]))
+            .collect()
     };
-    let single = depth().or_else(|| ["z", "depth", "y"].into_iter().find_map(called));
-    let chosen = (single.map(|one| vec![one]).or_else(grey)).or_else(|| Some(vec![only()?]))?;
+    let called = |name: &str| single(&|one| one.name == name && !is_of_vector(one));
+    let is_only = |one: &NamedChannel| layers[one.layer].channels.list.len() == 1;
+    let found = match wanted {
+        Some(wanted) => single(&|one| one.full.eq_ignore_ascii_case(wanted)),
+        None => std::iter::once(single(&|one| {
+            of_depth(one) && ["v", "z"].contains(&&*one.name)
+        }))
+        .chain(HEIGHT_NAMES.map(called))
+        .chain([grey(&of_depth), grey(&|_| true), single(&is_only)])
+        .find(|found| !found.is_empty())?,
+    };
+    let (chosen, others) = found.split_first()?;
+    let names: Vec<String> = (others.iter().filter(|_| wanted.is_none()))
+        .map(|other| format!("`{}`", other[0].full))
+        .collect();
+    let assumption = (!names.is_empty()).then(|| {
+        let words = format!(
+            "`{}` is meant, and not {}",
+            chosen[0].full,
+            names.join(", ")
+        );
+        Assumption::new("channel", words, "array")
+    });
     let heights: Vec<usize> = chosen.iter().map(|one| one.index).collect();
     let alpha = beside(chosen[0], "a").map(|one| one.index);
     let alpha = alpha.filter(|index| !heights.contains(index));
-    Some((chosen[0].layer, ChosenChannels { heights, alpha }))
+    let chosen_channels = ChosenChannels {
+        heights,
+        alpha,
+        assumption,
+    };
+    Some((chosen[0].layer, chosen_channels))
 }
 
 fn failed(error: ExrError) -> Error {
@@ -279,21 +317,47 @@ mod tests {
         for parts in [
             [("rgba", &black[..]), ("deep", &[("Z", 5.0)][..])],
             [("beauty", &coloured), ("Depth", &grey)],
+            [("beauty", &coloured), ("", &[("height", 5.0)])],
             [
                 ("beauty", &coloured),
                 ("", &[("depth.V", 5.0), ("depth.R", 4.0)]),
             ],
         ] {
-            assert_eq!(decode(&layers(&parts)).unwrap().values, [5.0; 2]);
+            let read = decode(&layers(&parts), None).unwrap();
+            assert_eq!((read.values, read.assumptions.len()), (vec![5.0; 2], 0));
         }
+    }
+
+    #[test]
+    fn one_of_several_depths_is_said_and_can_be_chosen() {
+        let file = layers(&[
+            ("left", &[("Z", 5.0)]),
+            ("Right", &[("Z", 7.0), ("A", 1.0)]),
+        ]);
+        let read = decode(&file, None).unwrap();
+        assert_eq!(read.values, [5.0; 2]);
+        assert_eq!(
+            read.assumptions[0].words,
+            "`left.Z` is meant, and not `Right.Z`"
+        );
+        let read = decode(&file, Some("right.Z")).unwrap();
+        assert_eq!((read.values, read.assumptions.len()), (vec![7.0; 2], 0));
+        let error = decode(&file, Some("Z")).unwrap_err().to_string();
+        assert!(
+            error.contains("only `left.Z`, `Right.A`, `Right.Z`"),
+            "{error}"
+        );
     }
 
     #[test]
     fn coordinates_of_a_normal_are_no_depths() {
         let normals = [("N.X", 0.0), ("N.Y", 0.0), ("N.Z", 1.0)];
-        let error = decode(&layers(&[("", &normals)])).unwrap_err();
+        let error = decode(&layers(&[("", &normals)]), None).unwrap_err();
         assert!(error.to_string().contains("`N.Z`"), "{error}");
         let points = [("X", 1.0), ("Y", 2.0), ("Z", 5.0)];
-        assert_eq!(decode(&layers(&[("", &points)])).unwrap().values, [5.0; 2]);
+        assert_eq!(
+            decode(&layers(&[("", &points)]), None).unwrap().values,
+            [5.0; 2]
+        );
     }
 }

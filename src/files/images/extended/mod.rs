@@ -32,7 +32,7 @@ pub fn decode(bytes: &[u8], format: Format, options: &DecodeOptions) -> Result<D
     options.check(format)?;
     let stored = match format {
         Format::Tiff => tiff::decode(bytes, options),
-        Format::Exr => exr::decode(bytes),
+        Format::Exr => exr::decode(bytes, options.array.as_deref()),
         Format::Pfm => pfm::decode(bytes),
         Format::Pgm => pfm::decode_pgm(bytes),
         Format::Npz => npz::decode(bytes, options.array.as_deref()),

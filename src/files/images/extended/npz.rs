@@ -7,6 +7,7 @@ use ::zip::result::ZipError;
 
 use crate::MAX_CELLS;
 use crate::error::{Error, Result};
+use crate::files::Assumption;
 use crate::files::buffer::reserve;
 use crate::files::failure::{check_length, damaged, in_format, not_read};
 use crate::files::image_format::Format;
@@ -32,7 +33,12 @@ pub struct NpzArray {
     pub shape: Vec<u64>,
     /// Type of the array's elements: `"f32"` and the like, or NumPy's own name for elements that are not numbers.
     pub data_type: String,
+    /// Whether the array may be an image of heights: it has rows and columns of numbers, and more than a camera's matrix or pose.
+    pub may_be_image: bool,
 }
+
+/// Maximum number of rows and columns of the matrices of cameras, which lie beside images in files.
+const MAX_CAMERA_MATRIX_SIDE: usize = 4;
 
 /// Lists the arrays of an NPZ file, in the order of the file.
 ///
@@ -53,7 +59,10 @@ fn headers(bytes: &[u8]) -> Result<Vec<NpzArray>> {
             let whole = entry.take(MAX_HEADER_BYTES).read_to_end(&mut head);
             whole.map_err(damaged)?;
             let (shape, data_type) = npy::describe(&head).map_err(|e| within(&name, e))?;
+            let is_large = |(rows, cols): (usize, usize)| rows.min(cols) > MAX_CAMERA_MATRIX_SIDE;
             Ok(NpzArray {
+                may_be_image: npy::rows_and_columns(&shape).is_some_and(is_large)
+                    && data_type.starts_with(['u', 'i', 'f']),
                 name,
                 shape,
                 data_type,
@@ -62,22 +71,31 @@ fn headers(bytes: &[u8]) -> Result<Vec<NpzArray>> {
         .collect()
 }
 
-/// Decodes the array of the given name, or the only array if no name is given.
+/// Decodes the array of the given name, or the only array that may be an image if no name is given.
 pub(super) fn decode(bytes: &[u8], array: Option<&str>) -> Result<StoredImage> {
     let mut archive = open(bytes)?;
     let names = names(&archive)?;
-    let name = match (array, names.as_slice()) {
-        (Some(wanted), names) if names.iter().any(|name| name == wanted) => wanted,
-        (None, [only]) => only,
-        (wanted, names) => {
-            let there = listed(names);
-            let reason = match wanted {
-                Some(wanted) => format!("it has no array `{wanted}`, only {there}"),
-                None => format!("it holds {there}; choose one by the option `array`"),
-            };
-            return Err(not_read(reason));
+    let mut assumption = None;
+    let found = match (array, &names[..]) {
+        (Some(wanted), names) => names.iter().find(|name| *name == wanted).cloned(),
+        (None, [only]) => Some(only.clone()),
+        (None, _) => {
+            let mut images = headers(bytes)?.into_iter().filter(|one| one.may_be_image);
+            let only = images.next().filter(|_| images.next().is_none());
+            only.map(|NpzArray { name, .. }| {
+                let words = format!("`{name}` is meant, the only array in it that may be an image");
+                assumption = Some(Assumption::new("array", words, "array"));
+                name
+            })
         }
     };
+    let name = &found.ok_or_else(|| {
+        let there = listed(&names);
+        not_read(match array {
+            Some(wanted) => format!("it has no array `{wanted}`, only {there}"),
+            None => format!("it holds {there}; choose one by the option `array`"),
+        })
+    })?;
     let entry = archive.by_name(&member(name)).map_err(failed)?;
     let size = usize::try_from(entry.size()).unwrap_or(usize::MAX);
     if size > MAX_NPY_BYTES {
@@ -93,9 +111,11 @@ pub(super) fn decode(bytes: &[u8], array: Option<&str>) -> Result<StoredImage> {
     // The decoder never returns more than the header states, and the archive's checksum verifies it.
     let read = entry.take(size as u64 + 1).read_to_end(&mut file);
     read.map_err(damaged)?;
-    crate::files::kind::announced(&file, Some(Format::Npy))
+    let mut image = crate::files::kind::announced(&file, Some(Format::Npy))
         .and_then(|_| npy::decode(&file))
-        .map_err(|e| within(name, e))
+        .map_err(|e| within(name, e))?;
+    image.assumptions.extend(assumption);
+    Ok(image)
 }
 
 fn open(bytes: &[u8]) -> Result<ZipArchive<Cursor<&[u8]>>> {

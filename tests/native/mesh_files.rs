@@ -169,6 +169,13 @@ fn triangles_of_stl_have_the_colours_of_viscam_and_magics() {
     let expected = [[1.0, 0.0, 0.0], [1.0, 0.2, 0.0], [0.0, 0.0, 1.0]];
     assert_eq!(magics, Some(expected.into()));
     assert_eq!(colors(b"", &[0, 9]), None);
+    // As MeshLab writes it: the bit is set although each has a colour.
+    let meshlab = colors(b"COLOR=\x7f\x7f\x7f ", &[bit | 31, bit | five]);
+    assert_eq!(meshlab, Some(vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]));
+    let same = colors(b"COLOR=\xff\x33\0\xff", &[bit; 2]);
+    assert_eq!(same, Some(vec![[1.0, 0.2, 0.0]; 2]));
+    // By a program that has kept the header.
+    assert_eq!(colors(b"COLOR=\xff\x33\0\xff", &[0, 0]), None);
 }
 
 #[test]
@@ -218,8 +225,43 @@ fn obj_colours_may_go_up_to_255() {
         read(&text).mesh.colors().unwrap().to_vec()
     };
     assert_eq!(colors("0 0 1")[0], [1.0, 0.0, 0.2]);
-    // Bright ones are no bytes.
-    assert_eq!(colors("0 0 1.5")[0], [255.0, 0.0, 51.0]);
+    // Some programs write them with decimals.
+    assert_eq!(
+        colors("0 0 127.5")[0..=2],
+        [[1.0, 0.0, 0.2], [0.0; 3], [0.0, 0.0, 0.5]]
+    );
+    // Bright ones are no levels.
+    let bright = read("v 0 0 0 1.5 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
+    assert_eq!(bright.mesh.colors().unwrap()[0], [1.5, 0.0, 0.0]);
+}
+
+#[test]
+fn ply_colours_of_every_type_are_shares_or_levels() {
+    for (kind, half) in [
+        ("uchar", "51"),
+        ("ushort", "13107"),
+        ("int", "51"),
+        ("float", "0.2"),
+        ("float", "51.0"),
+        ("double", "51"),
+    ] {
+        let white = half.parse::<f64>().unwrap() * 5.0;
+        let colors: String = ["red", "green", "blue"]
+            .map(|name| format!("property {kind} {name}\n"))
+            .concat();
+        let faces = "element face 1\nproperty list uchar int vertex_indices\n";
+        for (of_vertex, of_face) in [(&colors[..], ""), ("", &colors)] {
+            let [vertex, face] = [of_vertex, of_face].map(|kinds| match kinds {
+                "" => String::new(),
+                _ => format!(" {half} 0 {white}"),
+            });
+            let rows = CORNERS.replace('\n', &format!("{vertex}\n"));
+            let text = format!(
+                "ply\nformat ascii 1.0\n{SQUARE}{of_vertex}{faces}{of_face}end_header\n{rows}4 0 1 2 3{face}\n"
+            );
+            assert_eq!(face_colors(&read(&text)), [[0.2, 0.0, 1.0]; 2], "{text}");
+        }
+    }
 }
 
 #[test]
@@ -394,6 +436,7 @@ fn three_mf_with_its_unit_and_components() {
     assert_eq!(file.unit, Some(Unit::Millimetre));
     assert!(file.assumptions.is_empty(), "{:?}", file.assumptions);
     assert_eq!(file.mesh.triangles(), [[0, 1, 2], [3, 4, 5]]);
+    assert_eq!(face_colors(&file), [[1.0, 0.0, 0.0]; 2]);
     let inches = [
         [10.0, 100.0, 0.0],
         [12.0, 100.0, 0.0],
@@ -422,6 +465,50 @@ fn three_mf_with_its_unit_and_components() {
     assert!(error.to_string().contains("is not there"), "{error}");
     let missing = MODEL.replace("objectid=\"1\"", "objectid=\"7\"");
     assert!(read_mesh_beside(&archive(&missing), None, &[]).is_err());
+}
+
+#[test]
+fn three_mf_with_colours_of_materials_and_corners() {
+    let model = |attributes: &str, rows: &str| {
+        let text = format!(
+            r##"<model unit="millimeter"><resources>
+<basematerials id="1"><base name="a" displaycolor="#FF0000"/><base name="b" displaycolor="#0033ffff"/></basematerials>
+<colorgroup id="2"><color color="#00FF00"/><color color="#000000"/><color color="#FFFFFF"/></colorgroup>
+<object id="3" {attributes}><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="9" y="0" z="0"/><vertex x="9" y="9" z="0"/>
+<vertex x="0" y="9" z="0"/></vertices><triangles>{rows}</triangles></mesh></object>
+</resources><build><item objectid="3"/></build></model>"##
+        );
+        read_mesh_beside(&archive(&text), None, &[]).unwrap()
+    };
+    let [red, blue, white] = [[1.0, 0.0, 0.0], [0.0, 0.2, 1.0], [1.0; 3]];
+    let [first, second] = [r#"v1="0" v2="1" v3="2""#, r#"v1="0" v2="2" v3="3""#];
+    for (attributes, own, colors) in [
+        (r#"pid="1" pindex="1""#, "", [blue, blue]),
+        (r#"pid="1" pindex="1""#, r#"p1="0""#, [blue, red]),
+        ("", r#"pid="1" p1="0""#, [white, red]),
+    ] {
+        let file = model(
+            attributes,
+            &format!("<triangle {first}/><triangle {second} {own}/>"),
+        );
+        assert_eq!(face_colors(&file), colors, "{attributes} {own}");
+    }
+    let rows = format!(
+        r#"<triangle {first} pid="2" p1="0" p2="1" p3="2"/><triangle {second} pid="2" p1="0" p2="2" p3="9"/>"#
+    );
+    let file = model("", &rows);
+    let corners =
+        |t: usize| file.mesh.triangles()[t].map(|v| file.mesh.colors().unwrap()[v as usize]);
+    // A corner whose colour is not there leaves its triangle without one.
+    assert_eq!(
+        (corners(0), corners(1)),
+        ([[0.0, 1.0, 0.0], [0.0; 3], white], [white; 3])
+    );
+    let plain = model("", &format!("<triangle {first}/><triangle {second}/>"));
+    assert_eq!(
+        (plain.mesh.colors(), plain.mesh.positions().len()),
+        (None, 4)
+    );
 }
 
 /// A glTF file of a square, whose picture is used by a quarter, turned: the example of the specification of

@@ -175,11 +175,17 @@ impl MeshBuilder {
     }
 }
 
-/// Brings colours from 0 to 255 to those from 0 to 1, if all are whole numbers and some are more than 1.
+/// Largest channel of a colour from 0 to 1 that is brighter than white, as renders have them; more are levels up to 255.
+const MAX_LIGHT: f32 = 16.0;
+
+/// Brings colours from 0 to 255 to those from 0 to 1, if all are whole numbers and some are more than 1, or some are more than
+/// any light.
 pub(super) fn scale_levels<'a>(colors: impl Iterator<Item = &'a mut [f32; 3]>) {
     let colors: Vec<_> = colors.collect();
     let components = || colors.iter().flat_map(|color| color.iter());
-    if components().all(|v| v.fract() == 0.0) && components().any(|v| *v > 1.0) {
+    let are_whole = || components().all(|v| v.fract() == 0.0);
+    let largest = components().copied().fold(0.0, f32::max);
+    if largest > MAX_LIGHT || largest > 1.0 && are_whole() {
         colors
             .into_iter()
             .for_each(|color| *color = color.map(|v| v / 255.0));

@@ -3,7 +3,6 @@
 use rustc_hash::FxHashMap;
 
 use super::builder::{DEFAULT_VERTEX_COLOUR, MeshBuilder, NO_UV};
-use super::narrow::byte;
 use crate::error::Result;
 use crate::files::failure::damaged;
 
@@ -13,37 +12,8 @@ pub(super) struct Corners {
     pub(super) positions: Vec<[f64; 3]>,
     /// Colour of each position; shorter than the positions, or `None`, where the file states none.
     pub(super) colors: Vec<Option<[f32; 3]>>,
-    /// Vertex of each position with given texture coordinates (their bits) and material.
-    pub(super) vertices: FxHashMap<(usize, [u32; 2], usize), u32>,
-}
-
-/// Appearance of the corners of faces of one material: its number, and its colour.
-#[derive(Clone, Copy)]
-pub(super) struct CornerMaterial {
-    pub(super) number: usize,
-    pub(super) color: [f32; 3],
-}
-
-impl Default for CornerMaterial {
-    fn default() -> Self {
-        CornerMaterial {
-            number: 0,
-            color: DEFAULT_VERTEX_COLOUR,
-        }
-    }
-}
-
-impl CornerMaterial {
-    /// Creates the material of a face that has a colour of its own, if it has one.
-    pub(super) fn of_face(color: Option<[f32; 3]>) -> Self {
-        color.map_or_else(CornerMaterial::default, |color| {
-            let [r, g, b] = color.map(byte);
-            CornerMaterial {
-                number: u32::from_be_bytes([1, r, g, b]) as usize,
-                color,
-            }
-        })
-    }
+    /// Vertex of each position with given texture coordinates and colour, by their bits.
+    vertices: FxHashMap<(usize, [u32; 2], [u32; 3]), u32>,
 }
 
 impl Corners {
@@ -62,37 +32,39 @@ impl Corners {
         &mut self,
         face: &mut [u32],
         uvs: &[f32],
-        material: CornerMaterial,
+        color: Option<[f32; 3]>,
         parts: &mut MeshBuilder,
     ) -> Result<()> {
         for (k, index) in face.iter_mut().enumerate() {
-            if *index as usize >= self.positions.len() {
-                let reason = format!("a face names vertex {index} of {}", self.positions.len());
-                return Err(damaged(reason));
-            }
             let uv = uvs.get(2 * k..2 * k + 2).map(|uv| [uv[0], uv[1]]);
-            *index = self.vertex(*index as usize, uv, material, parts)?;
+            *index = self.vertex(*index as usize, uv, color, parts)?;
         }
         Ok(())
     }
 
-    /// Returns the vertex of a corner, and adds it to the mesh where there is none yet. The position must be there.
+    /// Returns the vertex of a corner, and adds it to the mesh where there is none yet. The colour counts where the position has
+    /// none of its own.
     pub(super) fn vertex(
         &mut self,
         position: usize,
         uv: Option<[f32; 2]>,
-        material: CornerMaterial,
+        color: Option<[f32; 3]>,
         parts: &mut MeshBuilder,
     ) -> Result<u32> {
         let uv = uv.unwrap_or(NO_UV);
-        let key = (position, uv.map(f32::to_bits), material.number);
+        let own = self.colors.get(position).copied().flatten();
+        let color = own.or(color).unwrap_or(DEFAULT_VERTEX_COLOUR);
+        let key = (position, uv.map(f32::to_bits), color.map(f32::to_bits));
         if let Some(vertex) = self.vertices.get(&key) {
             return Ok(*vertex);
         }
+        let Some(place) = self.positions.get(position) else {
+            let reason = format!("a face names vertex {position} of {}", self.positions.len());
+            return Err(damaged(reason));
+        };
         let vertex = parts.positions.len() as u32;
-        parts.position(self.positions[position])?;
-        let own = self.colors.get(position).copied().flatten();
-        parts.colors.push(own.unwrap_or(material.color));
+        parts.position(*place)?;
+        parts.colors.push(color);
         parts.uvs.push(uv);
         self.vertices.insert(key, vertex);
         Ok(vertex)

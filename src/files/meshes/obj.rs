@@ -2,7 +2,7 @@
 
 use super::beside::Beside;
 use super::builder::{MeshBuilder, NO_TEXTURE, scale_levels};
-use super::corners::{CornerMaterial, Corners};
+use super::corners::Corners;
 use super::mtl::{self, Material};
 use super::rows::{numbers, point};
 use crate::error::Result;
@@ -41,9 +41,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
     if !has_faces {
         // Without faces its points are a cloud.
         for point in 0..reader.corners.positions.len() {
-            reader
-                .corners
-                .vertex(point, None, CornerMaterial::default(), parts)?;
+            reader.corners.vertex(point, None, None, parts)?;
         }
         return Ok(());
     }
@@ -79,7 +77,7 @@ impl Reader {
         parts: &mut MeshBuilder,
     ) -> Result<()> {
         let mut counts = [0; 2];
-        let (mut material, mut texture) = (CornerMaterial::default(), NO_TEXTURE);
+        let (mut color, mut texture) = (None, NO_TEXTURE);
         let mut face = Vec::new();
         for (row, line) in lines(text) {
             let mut words = words(&line);
@@ -90,12 +88,8 @@ impl Reader {
                 Some("usemtl") => {
                     parts.texture(texture);
                     let name = rest_of(&line);
-                    let number = self.materials.iter().position(|m| m.name == name);
-                    let found = number.map(|number| &self.materials[number]);
-                    material = CornerMaterial {
-                        number: number.map_or(0, |number| number + 1),
-                        color: found.map_or(CornerMaterial::default().color, |m| m.color),
-                    };
+                    let found = self.materials.iter().find(|m| m.name == name);
+                    color = found.map(|m| m.color);
                     let picture = found.and_then(|m| m.picture.as_deref());
                     texture = match picture.and_then(|name| beside.find(name)) {
                         Some((name, bytes)) => parts.picture(name, bytes)?,
@@ -117,7 +111,7 @@ impl Reader {
                             })?;
                         let uv = index(indices.next(), counts[1]);
                         let uv = uv.and_then(|i| uvs.get(i)).copied();
-                        face.push(self.corners.vertex(position, uv, material, parts)?);
+                        face.push(self.corners.vertex(position, uv, color, parts)?);
                     }
                     parts.polygon(&face)?;
                 }

@@ -1,7 +1,7 @@
 //! Reads meshes in the Object File Format (OFF), in text.
 
 use super::builder::{MeshBuilder, scale_levels};
-use super::corners::{CornerMaterial, Corners};
+use super::corners::Corners;
 use super::rows::{numbers, point, whole};
 use crate::error::Result;
 use crate::files::failure::{damaged, not_read};
@@ -77,7 +77,7 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
     let mut corners = is_coloured.then(|| Corners::taken_from(parts));
     for (polygon, color) in polygons.iter_mut().zip(colors) {
         if let Some(corners) = &mut corners {
-            corners.split(polygon, &[], CornerMaterial::of_face(color), parts)?;
+            corners.split(polygon, &[], color, parts)?;
         }
         parts.polygon(polygon)?;
     }

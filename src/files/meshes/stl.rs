@@ -40,16 +40,32 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
             damaged(reason)
         })?;
     parts.trailing_bytes = bytes.len() - STL_HEADER_BYTES - triangles.len();
-    let base = base_colour(&bytes[..STL_HEADER_BYTES]);
-    for triangle in triangles.as_chunks::<STL_TRIANGLE_BYTES>().0 {
+    let triangles = triangles.as_chunks::<STL_TRIANGLE_BYTES>().0;
+    let attributes =
+        (triangles.iter()).map(|triangle| u16::from_le_bytes([triangle[48], triangle[49]]));
+    // A program that knows no colours leaves the header as it was, and writes 0 for all attributes.
+    let base = base_colour(&bytes[..STL_HEADER_BYTES])
+        .filter(|_| attributes.clone().any(|attribute| attribute != 0));
+    // MeshLab marks all triangles with colours of their own, too.
+    let is_marked = attributes
+        .clone()
+        .all(|attribute| attribute & COLOUR_BIT != 0);
+    let are_alike = attributes
+        .clone()
+        .all(|attribute| Some(attribute) == attributes.clone().next());
+    let ignored = if base.is_some() && is_marked && !are_alike {
+        COLOUR_BIT
+    } else {
+        0
+    };
+    for (triangle, attribute) in triangles.iter().zip(attributes) {
         let start = parts.positions.len() as u32;
         // Three numbers each: a normal, and the corners.
         for corner in triangle.as_chunks::<12>().0.iter().skip(1) {
             parts.position([0, 4, 8].map(|at| NumberType::F32.value(&corner[at..], false)))?;
         }
         parts.triangle([start, start + 1, start + 2])?;
-        let attribute = u16::from_le_bytes([triangle[48], triangle[49]]);
-        if let Some(colour) = colour(attribute, base) {
+        if let Some(colour) = colour(attribute & !ignored, base) {
             (parts.colors).resize(start as usize, DEFAULT_VERTEX_COLOUR);
             parts.colors.extend([colour; 3]);
         }

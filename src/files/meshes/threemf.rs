@@ -1,4 +1,4 @@
-//! Reads 3MF meshes: a ZIP archive with a model in XML, which states its unit.
+//! Reads 3MF meshes: a ZIP archive with a model in XML, which states its unit, with the colours of materials and of corners.
 
 use std::collections::HashMap;
 use std::io::{Cursor, Read};
@@ -7,7 +7,8 @@ use nalgebra::{Matrix4, Vector4};
 use roxmltree::{Document, Node};
 use zip::ZipArchive;
 
-use super::builder::MeshBuilder;
+use super::builder::{DEFAULT_VERTEX_COLOUR, MeshBuilder};
+use super::corners::Corners;
 use super::unit::FileUnit;
 use crate::error::{Error, MAX_CELLS, Result};
 use crate::files::failure::damaged;
@@ -36,13 +37,20 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<FileUnit> {
     let root = main.root_element();
     let unit = FileUnit::new(root.attribute("unit").unwrap_or("millimeter"))
         .map_err(|_| damaged("the unit of its model is not known"))?;
-    let objects = (documents.iter())
-        .flat_map(|(path, document)| document.descendants().map(move |node| (*path, node)))
+    let nodes = || {
+        let documents = documents.iter();
+        documents.flat_map(|(path, document)| document.descendants().map(move |node| (*path, node)))
+    };
+    let objects = nodes()
         .filter(|(_, node)| node.tag_name().name() == "object")
         .filter_map(|(path, node)| Some(((path, node.attribute("id")?), node)))
         .collect();
+    let palettes = nodes()
+        .filter_map(|(path, node)| Some(((path, node.attribute("id")?), palette(node)?)))
+        .collect();
     let mut model = Model {
         objects,
+        palettes,
         parts,
         added: 0,
     };
@@ -94,9 +102,31 @@ fn main_model(relations: &str) -> Option<String> {
     Some(path.trim_start_matches('/').to_owned())
 }
 
-/// The objects of all models, by the paths of these and their own names, and the mesh that is built of them.
+/// Colours of the materials or corners that a resource lists; `None` for other resources.
+fn palette(resource: Node) -> Option<Vec<[f32; 3]>> {
+    let name = match resource.tag_name().name() {
+        "basematerials" => "displaycolor",
+        "colorgroup" => "color",
+        _ => return None,
+    };
+    let elements = resource.children().filter(Node::is_element);
+    Some(elements.map(|one| colour(one.attribute(name))).collect())
+}
+
+/// Parses a colour `#RRGGBB` with or without an opacity behind it; white for another text.
+fn colour(text: Option<&str>) -> [f32; 3] {
+    let digits = text.and_then(|text| text.trim().get(1..7));
+    let levels = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok());
+    levels.map_or(DEFAULT_VERTEX_COLOUR, |levels| {
+        let [_, rgb @ ..] = levels.to_be_bytes();
+        rgb.map(|level| f32::from(level) / 255.0)
+    })
+}
+
+/// The objects and colours of all models, by the paths of these and their own names, and the mesh that is built of them.
 struct Model<'a, 'b> {
     objects: HashMap<(&'a str, &'a str), Node<'a, 'a>>,
+    palettes: HashMap<(&'a str, &'a str), Vec<[f32; 3]>>,
     parts: &'b mut MeshBuilder,
     /// Number of components that were added.
     added: usize,
@@ -136,7 +166,7 @@ impl<'a> Model<'a, '_> {
         }
         for child in object.children() {
             match child.tag_name().name() {
-                "mesh" => self.mesh(child, transform)?,
+                "mesh" => self.mesh(path, object, child, transform)?,
                 "components" => {
                     for component in child.children().filter(Node::is_element) {
                         self.add(
@@ -153,24 +183,63 @@ impl<'a> Model<'a, '_> {
         Ok(())
     }
 
-    fn mesh(&mut self, mesh: Node, transform: &Matrix4<f64>) -> Result<()> {
+    fn mesh(
+        &mut self,
+        path: &'a str,
+        object: Node<'a, 'a>,
+        mesh: Node<'a, 'a>,
+        transform: &Matrix4<f64>,
+    ) -> Result<()> {
         let start = self.parts.positions.len();
+        let (mut corners, mut triangles) = (Corners::default(), Vec::new());
         for node in mesh.descendants() {
             match node.tag_name().name() {
                 "vertex" => {
                     let [x, y, z] = ["x", "y", "z"].map(|name| number::<f64>(node, name));
                     let point = transform * Vector4::new(x?, y?, z?, 1.0);
-                    self.parts.position([point.x, point.y, point.z])?;
+                    corners.positions.push([point.x, point.y, point.z]);
                 }
                 "triangle" => {
                     let [a, b, c] = ["v1", "v2", "v3"].map(|name| number::<u32>(node, name));
-                    let [a, b, c] = [a?, b?, c?].map(|v| v.saturating_add(start as u32));
-                    self.parts.triangle([a, b, c])?;
+                    triangles.push(([a?, b?, c?], self.colors(path, object, node)));
                 }
                 _ => {}
             }
         }
+        let is_coloured = triangles.iter().any(|(_, colors)| colors.is_some());
+        if !is_coloured {
+            let positions = &corners.positions;
+            (positions.iter()).try_for_each(|position| self.parts.position(*position))?;
+        }
+        for (triangle, colors) in triangles {
+            let mut own = triangle.map(|vertex| vertex.saturating_add(start as u32));
+            for (k, vertex) in own.iter_mut().enumerate().filter(|_| is_coloured) {
+                let color = colors.map(|colors| colors[k]);
+                *vertex = corners.vertex(triangle[k] as usize, None, color, self.parts)?;
+            }
+            self.parts.triangle(own)?;
+        }
+        let known = self.parts.colors.len();
+        self.parts.material(known, DEFAULT_VERTEX_COLOUR);
         Ok(())
+    }
+
+    /// Colours of the corners of a triangle: by its own resource, or that of its object.
+    fn colors(&self, path: &str, object: Node, triangle: Node) -> Option<[[f32; 3]; 3]> {
+        let own = triangle.attribute("pid");
+        let palette = &self
+            .palettes
+            .get(&(path, own.or(object.attribute("pid"))?))?;
+        let first =
+            (triangle.attribute("p1")).or(object.attribute("pindex").filter(|_| own.is_none()));
+        let color = |index: Option<&str>| palette.get(index?.parse::<usize>().ok()?).copied();
+        let first_color = color(first)?;
+        let other = |name: &str| {
+            triangle
+                .attribute(name)
+                .map_or(Some(first_color), |index| color(Some(index)))
+        };
+        Some([first_color, other("p2")?, other("p3")?])
     }
 }
 

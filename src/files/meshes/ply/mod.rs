@@ -8,13 +8,14 @@ use std::io::{self, Write};
 use self::header::{Element, Header};
 use self::values::Values;
 use super::beside::Beside;
-use super::builder::{MeshBuilder, NO_TEXTURE};
-use super::corners::{CornerMaterial, Corners};
+use super::builder::{MeshBuilder, NO_TEXTURE, scale_levels};
+use super::corners::Corners;
 use super::narrow::byte;
 use super::rows::whole;
 use crate::error::Result;
 use crate::files::buffer::Buffer;
 use crate::files::failure::{damaged, not_read};
+use crate::files::number_type::NumberType;
 use crate::scene::mesh::Mesh;
 
 pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Result<()> {
@@ -60,10 +61,13 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
             }
         }
     }
+    // Floats and wide integers may be shares, or levels up to 255.
+    scale_levels(parts.colors.iter_mut());
     Ok(())
 }
 
-/// Reads an element and calls a function with each value, its property's name, and the value that would be white.
+/// Reads an element and calls a function with each value, its property's name, and the value that would be white, which is 1 where
+/// the type does not tell.
 fn each_value(
     element: &Element,
     values: &mut Values,
@@ -78,7 +82,10 @@ fn each_value(
             take(
                 &property.name,
                 values.next(property.kind)?,
-                property.kind.one(),
+                match property.kind {
+                    NumberType::U8 | NumberType::U16 => property.kind.one(),
+                    _ => 1.0,
+                },
             )?;
         }
     }
@@ -167,7 +174,7 @@ impl Faces {
             let color = (is_plain && !color.iter().any(|c| c.is_nan())).then_some(color);
             if has_uvs || color.is_some() {
                 let corners = (self.corners).get_or_insert_with(|| Corners::taken_from(parts));
-                corners.split(&mut face, &uvs, CornerMaterial::of_face(color), parts)?;
+                corners.split(&mut face, &uvs, color, parts)?;
             }
             parts.polygon(&face)?;
         }

@@ -245,11 +245,6 @@ pub fn announced(bytes: &[u8], stated: Option<Format>) -> crate::Result<Format> 
 mod tests {
     use super::*;
 
-    /// Name and message of what a file is refused with.
-    fn told(bytes: &[u8], purpose: Purpose) -> String {
-        refused(bytes, purpose).to_string()
-    }
-
     #[test]
     fn files_are_told_by_their_contents() {
         let dicom = [&[0; 128][..], b"DICM\x02\0"].concat();
@@ -285,25 +280,21 @@ mod tests {
     #[test]
     fn what_is_read_for_another_purpose_is_named_with_it() {
         let stl = b"solid a\nfacet normal 0 0 1\n";
-        assert!(
-            told(stl, Purpose::Heights)
-                .contains("it is a mesh: read it as one, by a name that ends in .stl")
-        );
-        assert!(told(stl, Purpose::Photo).starts_with("STL: it is a mesh"));
-        assert!(told(b"\xff\xd8\xff\xe0", Purpose::Mesh).starts_with("JPEG: it is an image"));
-        assert!(
-            told(b"\x93NUMPY\x01\0", Purpose::Photo).contains("it has heights, and is no photo")
-        );
-        assert!(
-            told(b"Dear Sir or Madam,", Purpose::Mesh)
-                .ends_with("meshes are read from OBJ, PLY, STL, glTF, GLB, 3MF, OFF and XYZ")
-        );
-        assert!(
-            told(b"*NODE\n1, 0, 0, 0\n", Purpose::Mesh)
-                .contains("let FreeCAD save its mesh as STL")
-        );
-        assert!(told(&[7; 100], Purpose::Photo).contains("of unknown format"));
-        assert!(told(&[7; 100], Purpose::Heights).contains("gdal_translate"));
+        #[rustfmt::skip]
+        let files: [(&[u8], Purpose, &str); 8] = [
+            (stl, Purpose::Heights, "STL: it is a mesh: read it as one, by a name that ends in .stl"),
+            (stl, Purpose::Photo, "STL: it is a mesh"),
+            (b"\xff\xd8\xff\xe0", Purpose::Mesh, "JPEG: it is an image"),
+            (b"\x93NUMPY\x01\0", Purpose::Photo, "it has heights, and is no photo"),
+            (b"Dear Sir or Madam,", Purpose::Mesh, "meshes are read from OBJ, PLY, STL, glTF, GLB, 3MF, OFF and XYZ"),
+            (b"*NODE\n1, 0, 0, 0\n", Purpose::Mesh, "let FreeCAD save its mesh as STL"),
+            (&[7; 100], Purpose::Photo, "of unknown format"),
+            (&[7; 100], Purpose::Heights, "gdal_translate"),
+        ];
+        for (bytes, purpose, words) in files {
+            let told = refused(bytes, purpose).to_string();
+            assert!(told.contains(words), "{told}");
+        }
         assert_eq!(refused(b"", Purpose::Mesh).code(), "FORMAT");
     }
 }

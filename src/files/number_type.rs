@@ -131,21 +131,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn numbers_have_either_byte_order_and_their_sign() {
-        assert_eq!(NumberType::I16.value(&[0xfe, 0xff, 7], false), -2.0);
-        assert_eq!(NumberType::I16.value(&[0xff, 0xfe], true), -2.0);
-        assert_eq!(NumberType::U16.value(&[0xff, 0xfe], true), 65534.0);
-        assert_eq!(NumberType::I8.value(&[0x80], true), -128.0);
-        assert_eq!(NumberType::F32.value(&1.5f32.to_be_bytes(), true), 1.5);
-        assert_eq!(NumberType::F64.value(&(-0.1f64).to_le_bytes(), false), -0.1);
-        assert_eq!(
-            NumberType::U64.value(&u64::MAX.to_le_bytes(), false),
-            2f64.powi(64)
-        );
-        assert_eq!(NumberType::Bool.value(&[7], false), 1.0);
-    }
-
     #[cfg(feature = "images")]
     #[test]
     fn every_16_bit_float_is_what_the_crate_half_makes_of_it() {

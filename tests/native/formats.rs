@@ -180,6 +180,48 @@ fn npy_header(text: &str) -> Vec<u8> {
 }
 
 #[test]
+fn numpy_headers_of_other_programs_are_read_or_damage() {
+    let read = |header: &str| decode(&[npy_header(header), (1..=99).collect()].concat(), None);
+    let array = |shape: &str, order: &str| {
+        read(&format!(
+            "{{'shape': {shape}, 'fortran_order': {order}, 'descr': '|u1'}}\n"
+        ))
+    };
+    // Axes of length 1 around rows and columns are left out.
+    for (order, expected) in [
+        ("False", [1., 2., 3., 4., 5., 6.]),
+        ("True", [1., 3., 5., 2., 4., 6.]),
+    ] {
+        for shape in [
+            "(2, 3)",
+            "(1, 2, 3)",
+            "(2, 3, 1)",
+            "(1, 1, 2, 3)",
+            "(1, 2, 3, 1)",
+            "(2L,3L)",
+        ] {
+            let found = array(shape, order).unwrap();
+            assert_eq!((found.width, found.height), (3, 2), "{shape}");
+            assert_eq!(found.values, expected, "{shape} {order}");
+        }
+    }
+    for (shape, words) in [("(3, 2, 2)", "only two-dimensional"), ("(33, 3)", "points")] {
+        let error = array(shape, "False").unwrap_err().to_string();
+        assert!(error.contains(words), "{error}");
+    }
+    for header in [
+        "",
+        "{}",
+        "{'descr': 3}",
+        "{'descr': '<f8', 'fortran_order': 1, 'shape': (2, 2)}",
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (2, x)}",
+        "{'descr': '<f8', 'fortran_order': False, 'shape': 2}",
+    ] {
+        assert_eq!(read(header).unwrap_err().code(), "FORMAT", "{header}");
+    }
+}
+
+#[test]
 fn huge_declared_sizes_are_refused_before_they_are_allocated() {
     let code = |bytes: &[u8]| decode(bytes, None).unwrap_err().code();
     assert_eq!(code(&png_header(0x7fff_ffff, 0x7fff_ffff)), "TOO_LARGE");

@@ -5,8 +5,8 @@ use std::io::{Cursor, Write};
 use developable::dewarp::Photo;
 use developable::files::Unit;
 use developable::files::images::{
-    DecodeOptions, Decoded, Format, PhotoOptions, decode, decode_photo, decode_with, format_name,
-    npz_arrays, write_exr, write_npy, write_photo_jpeg, write_tiff,
+    DecodeOptions, Decoded, DepthEvidence, Format, PhotoOptions, decode, decode_photo, decode_with,
+    format_name, npz_arrays, write_exr, write_npy, write_photo_jpeg, write_tiff,
 };
 use developable::{Error, HeightImage};
 use proptest::prelude::*;
@@ -174,6 +174,60 @@ fn pfms_of_either_byte_order() {
 fn strips_of_zstandard_with_prediction() {
     let signed: Vec<f64> = ramp().iter().map(|v| v - 50.0).collect();
     check("zstd.tif", "i16", &signed);
+}
+
+#[test]
+fn a_square_of_srtm_lies_where_its_name_says() {
+    let side = 1201;
+    let mut file = vec![0; 2 * side * side];
+    // 258 m in the north-west, below the sea beside it, and a void in the south-east.
+    file[..4].copy_from_slice(&[1, 2, 0xff, 0xfe]);
+    file[2 * side * side - 2..].copy_from_slice(&[0x80, 0]);
+    assert_eq!(Format::detect(&file), Some(Format::Hgt));
+    let options = |name: &str| DecodeOptions::default().name(name);
+    // Which leaves the pixels as they are.
+    let size = options("S34W071.SRTMGL3.hgt").pixel_size(80.0);
+    let found = decode_with(&file, None, &size).unwrap();
+    assert_eq!(
+        (found.width, found.height, found.values.len()),
+        (side, side, side * side)
+    );
+    assert_eq!(found.values[..2], [258.0, -2.0]);
+    assert!(found.values[side * side - 1].is_nan());
+    // A degree at 33.5 degrees of latitude, by the usual series in kilometres: of longitude 111.412 cos φ − 0.0935 cos 3φ, of
+    // latitude 111.133 − 0.5598 cos 2φ + 0.0012 cos 4φ.
+    let map = found.georeference.unwrap();
+    assert!((1200.0 * map.pixel_size((side, side)) - 0.5 * (92_922.0 + 110_913.0)).abs() < 20.0);
+    assert_eq!(
+        [map.transformation[2], map.transformation[5]],
+        [-71.0, -33.0]
+    );
+    let unknown = decode_with(&file, None, &options("tile.hgt")).unwrap();
+    assert!(unknown.georeference.is_none());
+    assert!(unknown.assumptions[0].words.contains("equator"));
+}
+
+#[test]
+fn depth_maps_of_colmap_are_depths_in_a_unit_of_their_own() {
+    let map = |head: &str, depths: &[f32]| {
+        let numbers = depths.iter().flat_map(|depth| depth.to_le_bytes());
+        decode(&head.bytes().chain(numbers).collect::<Vec<_>>(), None)
+    };
+    let found = map("3&2&1&", &[1.5, 0.0, 2.5, 3.0, 4.0, 5.0]).unwrap();
+    assert_eq!(
+        (found.format, found.width, found.height),
+        (Format::Colmap, 3, 2)
+    );
+    assert!(found.values[1].is_nan() && found.values[2] == 2.5);
+    // Not in millimetres, however large they are.
+    let large = map("3&2&1&", &[300.0; 6]).unwrap();
+    assert_eq!(
+        (large.depths, large.depth_unit),
+        (DepthEvidence::Certain, Unit::Metre)
+    );
+    let error = map("3&2&1&", &[1.5; 5]).unwrap_err();
+    assert!(error.to_string().contains("it is cut short"), "{error}");
+    assert_eq!(map("3&2&3&", &[]).unwrap_err().code(), "UNSUPPORTED");
 }
 
 #[test]

@@ -55,10 +55,14 @@ mod sampling;
 mod steps;
 #[cfg(all(feature = "formats", feature = "meshes"))]
 mod surfaces;
+#[cfg(feature = "images")]
+mod text_grids;
 #[cfg(all(feature = "formats", feature = "meshes"))]
 mod textures;
 #[cfg(feature = "threads")]
 mod threads;
+#[cfg(feature = "images")]
+mod tiffs;
 mod unroll;
 mod warm;
 mod whole;

@@ -143,18 +143,19 @@ mod tests {
         }
     }
 
-    /// Heights between 200 and 4800, and what is to be no data or not.
+    /// What is assumed of values.
+    fn told(mut values: Vec<f64>) -> Vec<String> {
+        let before = values.clone();
+        let told = assume_no_data(&mut values, false);
+        let missing = values.iter().filter(|value| value.is_nan()).count();
+        assert_eq!(told.is_empty(), missing == 0, "{before:?}");
+        told.into_iter().map(|one| one.words).collect()
+    }
+
+    /// What is assumed of values beside heights between 200 and 4800.
     fn assumed(more: &[f64]) -> Vec<String> {
-        let mut values: Vec<f64> = (0..100).map(|i| 200.0 + 46.0 * f64::from(i)).collect();
-        values.extend(more);
-        let before = values.iter().filter(|value| value.is_nan()).count();
-        let words: Vec<String> = assume_no_data(&mut values, false)
-            .into_iter()
-            .map(|one| one.words)
-            .collect();
-        let missing = values.iter().filter(|value| value.is_nan()).count() - before;
-        assert_eq!(words.is_empty(), missing == 0);
-        words
+        let heights = (0..100).map(|i| 200.0 + 46.0 * f64::from(i));
+        told(heights.chain(more.iter().copied()).collect())
     }
 
     #[test]
@@ -174,33 +175,32 @@ mod tests {
             let named: f64 = words.split(' ').next().unwrap().parse().unwrap();
             assert!((named / marker - 1.0).abs() < 1e-2, "{words}");
         }
-        assert_eq!(
-            assumed(&[-3.402_823_5e38; 2]),
-            ["-3.4e38 is no data (2 pixels)"]
-        );
-        assert_eq!(assumed(&[f64::INFINITY]), ["infinity is no data (1 pixel)"]);
+        for (more, words) in [
+            (&[-3.402_823_5e38; 2][..], "-3.4e38 is no data (2 pixels)"),
+            (&[f64::INFINITY], "infinity is no data (1 pixel)"),
+            (&[-9999.0], "-9999 is no data (1 pixel)"),
+        ] {
+            assert_eq!(assumed(more), [words]);
+        }
         assert_eq!(assumed(&[-9999.0, 1e20, -9999.0, 1e20]).len(), 2);
-        assert_eq!(assumed(&[-9999.0]), ["-9999 is no data (1 pixel)"]);
-        let mut few = [-99.0, -99.0, 250.0, 252.0];
-        assert_eq!(
-            assume_no_data(&mut few, false)[0].words,
-            "-99 is no data (2 pixels)"
-        );
-    }
-
-    #[test]
-    fn a_file_that_names_its_value_of_no_data_has_no_other() {
-        // A plateau at the highest level of a picture whose level 0 is no data.
-        let mut levels = [1.0, 900.0, 65535.0, 65535.0, f64::NAN];
-        assert!(assume_no_data(&mut levels, true).is_empty());
-        assert_eq!(levels[2], 65535.0);
+        // Zero far from all heights: the frame of a map, or what a camera did not see.
+        for (values, words) in [
+            (
+                [-99.0, -99.0, 250.0, 252.0, 252.0],
+                "-99 is no data (2 pixels)",
+            ),
+            (
+                [0.0, 0.0, 2000.0, 2030.0, 2060.0],
+                "0 is no data (2 pixels)",
+            ),
+            ([-1.0, -1.0, 40.0, 41.0, 60.0], "-1 is no data (2 pixels)"),
+        ] {
+            assert_eq!(told(values.into()), [words]);
+        }
     }
 
     #[test]
     fn what_may_have_been_measured_stays() {
-        // Levels of which the highest is no marker.
-        let mut levels = [0.0, 0.0, 5.0, 6.0, 20.0];
-        assert!(assume_no_data(&mut levels, false).is_empty());
         // Zeros that may be the sea, single outliers, round numbers, and a marker within the range of the others.
         for more in [
             &[0.0; 9][..],
@@ -212,26 +212,19 @@ mod tests {
         ] {
             assert_eq!(assumed(more), [""; 0]);
         }
-        // Zero far from all heights: the frame of a map, or what a camera did not see.
-        let mut frame = [0.0, 0.0, 2000.0, 2030.0, 2060.0];
-        assert_eq!(
-            assume_no_data(&mut frame, false)[0].words,
-            "0 is no data (2 pixels)"
-        );
-        let mut disparities = [-1.0, -1.0, 40.0, 41.0, 60.0];
-        assert_eq!(
-            assume_no_data(&mut disparities, false)[0].words,
-            "-1 is no data (2 pixels)"
-        );
-        // Terraces of two heights.
-        let mut terraces = [0.0, 99.0, 0.0, 99.0];
-        assert!(assume_no_data(&mut terraces, false).is_empty());
-        assert_eq!(terraces, [0.0, 99.0, 0.0, 99.0]);
-        // A mask of 16 bits.
-        let mut mask = [0.0, 65535.0, 65535.0, 0.0, 65535.0];
-        assert!(assume_no_data(&mut mask, false).is_empty());
-        let mut bathymetry: Vec<f64> = (0..2000).map(|i| -11_000.0 + 9.0 * f64::from(i)).collect();
-        bathymetry.extend([-9999.0; 4]);
-        assert!(assume_no_data(&mut bathymetry, false).is_empty());
+        // Levels of which the highest is no marker, terraces of two heights, and a mask of 16 bits.
+        for values in [
+            [0.0, 0.0, 5.0, 6.0, 20.0],
+            [0.0, 99.0, 0.0, 99.0, 0.0],
+            [0.0, 65535.0, 65535.0, 0.0, 65535.0],
+        ] {
+            assert_eq!(told(values.into()), [""; 0]);
+        }
+        let bathymetry = (0..2000).map(|i| -11_000.0 + 9.0 * f64::from(i));
+        assert_eq!(told(bathymetry.chain([-9999.0; 4]).collect()), [""; 0]);
+        // A file that names its value of no data has no other: a plateau at the highest level of a picture whose level 0 is none.
+        let mut levels = [1.0, 900.0, 65535.0, 65535.0, f64::NAN];
+        assert!(assume_no_data(&mut levels, true).is_empty());
+        assert_eq!(levels[2], 65535.0);
     }
 }

@@ -55,37 +55,3 @@ fn south_west(name: &str) -> Option<[f64; 2]> {
         },
     ])
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::files::image_format::Format;
-
-    #[test]
-    fn a_square_of_one_degree_lies_where_its_name_says() {
-        let side = 1201;
-        let mut file = vec![0; 2 * side * side];
-        // 258 m in the north-west, below the sea beside it, and a void in the south-east.
-        file[..4].copy_from_slice(&[1, 2, 0xff, 0xfe]);
-        file[2 * side * side - 2..].copy_from_slice(&[0x80, 0]);
-        assert_eq!(Format::detect(&file), Some(Format::Hgt));
-        let found = decode(&file, "S34W071.SRTMGL3.hgt").unwrap();
-        assert_eq!(
-            (found.size, &found.values[..2]),
-            ((side, side), &[258.0, -2.0][..])
-        );
-        assert_eq!(found.no_data, found.values.last().copied());
-        // A degree at 33.5 degrees of latitude, by the usual series in kilometres: of longitude 111.412 cos φ − 0.0935 cos 3φ, of
-        // latitude 111.133 − 0.5598 cos 2φ + 0.0012 cos 4φ.
-        let [x, y] = found.sides.unwrap().map(|length| 1200.0 * length);
-        assert!(
-            (x - 92_922.0).abs() < 20.0 && (y - 110_913.0).abs() < 5.0,
-            "{x} {y}"
-        );
-        let transformation = found.georeference.unwrap().transformation;
-        assert_eq!((transformation[2], transformation[5]), (-71.0, -33.0));
-        let unknown = decode(&file, "tile.hgt").unwrap();
-        assert!(unknown.georeference.is_none());
-        assert!(unknown.assumptions[0].words.contains("equator"));
-    }
-}

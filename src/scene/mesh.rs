@@ -39,7 +39,6 @@ impl Mesh {
                 reason: "it has no faces; points without any are a point cloud".into(),
             });
         }
-        check_finite(&positions)?;
         let outside = |t: &[u32; 3]| t.iter().copied().find(|i| *i as usize >= positions.len());
         if let Some((triangle, vertex)) = triangles
             .iter()
@@ -55,14 +54,7 @@ impl Mesh {
                 ),
             });
         }
-        Ok(Mesh {
-            positions,
-            triangles,
-            normals: None,
-            colors: None,
-            uvs: None,
-            textures: None,
-        })
+        Mesh::of_finite(positions, triangles)
     }
 
     /// Makes a point cloud: points without triangles.
@@ -77,15 +69,7 @@ impl Mesh {
                 reason: "there is no point in it".into(),
             });
         }
-        check_finite(&positions)?;
-        Ok(Mesh {
-            positions,
-            triangles: Vec::new(),
-            normals: None,
-            colors: None,
-            uvs: None,
-            textures: None,
-        })
+        Mesh::of_finite(positions, Vec::new())
     }
 
     /// Whether the mesh is a point cloud, without triangles.
@@ -207,11 +191,13 @@ impl Mesh {
     }
 
     /// Returns the mesh with other positions of its vertices, and without normals.
-    pub(crate) fn moved_to(mut self, positions: Vec<[f64; 3]>) -> Result<Self> {
-        check_finite(&positions)?;
-        self.positions = positions;
-        self.normals = None;
-        Ok(self)
+    pub(crate) fn moved_to(self, positions: Vec<[f64; 3]>) -> Result<Self> {
+        let moved = Mesh::of_finite(positions, Vec::new())?;
+        Ok(Mesh {
+            positions: moved.positions,
+            normals: None,
+            ..self
+        })
     }
 
     /// Returns the mesh with only those triangles that satisfy `wanted`, in the same order; vertices stay.
@@ -230,22 +216,26 @@ impl Mesh {
     pub(crate) fn corners(&self, triangle: [u32; 3]) -> [[f64; 3]; 3] {
         triangle.map(|i| self.positions[i as usize])
     }
-}
 
-fn check_finite(positions: &[[f64; 3]]) -> Result<()> {
-    let not_finite = |p: &[f64; 3]| p.iter().position(|v| !v.is_finite());
-    if let Some((row, col)) = positions
-        .iter()
-        .enumerate()
-        .find_map(|(i, p)| not_finite(p).map(|k| (i, k)))
-    {
-        return Err(Error::NotFinite {
-            what: "vertex position of the mesh",
-            value: positions[row][col],
-            row,
-            col,
-            advice: "rows are vertices and columns coordinates; repair or remove the vertex",
-        });
+    /// Makes a mesh without looks of positions that are finite.
+    fn of_finite(positions: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self> {
+        let place = positions.as_flattened().iter().position(|v| !v.is_finite());
+        if let Some((row, col)) = place.map(|place| (place / 3, place % 3)) {
+            return Err(Error::NotFinite {
+                what: "vertex position of the mesh",
+                value: positions[row][col],
+                row,
+                col,
+                advice: "rows are vertices and columns coordinates; repair or remove the vertex",
+            });
+        }
+        Ok(Mesh {
+            positions,
+            triangles,
+            normals: None,
+            colors: None,
+            uvs: None,
+            textures: None,
+        })
     }
-    Ok(())
 }

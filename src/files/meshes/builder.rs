@@ -4,9 +4,10 @@ use nalgebra::Vector3;
 
 use super::beside::Texture;
 use crate::error::{Error, MAX_CELLS, Result};
+use crate::files::Assumption;
 use crate::files::failure::{damaged, not_read};
 use crate::math::planar::Point2;
-use crate::math::polygon::triangulate;
+use crate::math::polygon::{MAX_POLYGON_CORNERS, triangulate};
 use crate::scene::mesh::Mesh;
 
 /// Colour of a vertex for which the mesh file states no colour: white, as in the glTF format.
@@ -32,8 +33,8 @@ pub(super) struct MeshBuilder {
     pub(super) crossed_polygons: usize,
     /// Whether the file has lines between vertices, which are left out.
     pub(super) has_lines: bool,
-    /// Number of bytes after the last triangle that the file states.
-    pub(super) trailing_bytes: usize,
+    /// What the decoder assumed.
+    pub(super) assumptions: Vec<Assumption>,
     /// Number of bytes left for further texture pictures; all pictures together may not exceed the size of the given
     /// files.
     pub(super) room: usize,
@@ -137,16 +138,30 @@ impl MeshBuilder {
         self.textures.resize(self.triangles.len(), number);
     }
 
-    /// Finishes the mesh and returns it. Where there are vertices but no
+    /// Finishes the mesh and returns it with what was assumed. Where there are vertices but no
     /// triangles, it is a point cloud if files of the format can hold one. Colours and texture coordinates that only
     /// some of the vertices have are left out.
-    pub(super) fn into_mesh(mut self, can_be_cloud: bool) -> Result<Mesh> {
+    pub(super) fn into_mesh(mut self, can_be_cloud: bool) -> Result<(Mesh, Vec<Assumption>)> {
         let (vertices, triangles) = (self.positions.len(), self.triangles.len());
         if vertices == 0 && triangles == 0 {
             let reason = "there are neither faces nor points in it";
             return Err(not_read(reason));
         }
         let cloud = self.triangles.is_empty() && vertices > 0 && can_be_cloud;
+        if self.has_lines && cloud {
+            let words =
+                "the lines in it are left out, and their ends are a point cloud: it has no faces";
+            self.assumptions
+                .push(Assumption::new("points", words, None));
+        }
+        if self.crossed_polygons > 0 {
+            let words = format!(
+                "sides cross in {} of its polygons, or are more than {MAX_POLYGON_CORNERS}: their triangles overlap",
+                self.crossed_polygons
+            );
+            self.assumptions
+                .push(Assumption::new("polygons", words, None));
+        }
         let mut mesh = if cloud {
             Mesh::cloud(self.positions)
         } else {
@@ -171,7 +186,7 @@ impl MeshBuilder {
                 mesh = mesh.with_textures(self.textures)?;
             }
         }
-        Ok(mesh)
+        Ok((mesh, self.assumptions))
     }
 }
 

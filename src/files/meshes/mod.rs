@@ -16,7 +16,6 @@ mod narrow;
 mod obj;
 mod off;
 mod ply;
-mod precision;
 mod rows;
 mod stl;
 mod threemf;
@@ -24,10 +23,8 @@ mod unit;
 mod xyz;
 
 use crate::error::Result;
-use crate::math::polygon::MAX_POLYGON_CORNERS;
 use crate::scene::mesh::Mesh;
 
-use super::Assumption;
 use super::failure::in_format;
 use super::image_format::Format;
 use super::kind::{Purpose, foreign, refused};
@@ -99,33 +96,13 @@ pub fn read_mesh_beside(
         MeshFormat::Xyz => xyz::read(bytes, &mut parts),
     }
     .map_err(in_format(format.title()))?;
-    let has_lines = parts.has_lines;
-    let (crossed, trailing) = (parts.crossed_polygons, parts.trailing_bytes);
     let textures = std::mem::take(&mut parts.pictures);
-    let mesh = parts.into_mesh(format != MeshFormat::Stl);
-    let mesh = mesh.map_err(in_format(format.title()))?;
-    let points = (has_lines && mesh.is_cloud()).then(|| {
-        let words =
-            "the lines in it are left out, and their ends are a point cloud: it has no faces";
-        Assumption::new("points", words, None)
-    });
-    let polygons = (crossed > 0).then(|| {
-        let words = format!(
-            "sides cross in {crossed} of its polygons, or are more than {MAX_POLYGON_CORNERS}: their triangles overlap"
-        );
-        Assumption::new("polygons", words, None)
-    });
-    let trailing = (trailing > 0).then(|| {
-        let words =
-            format!("the last {trailing} of its bytes are no triangles: its header states fewer");
-        Assumption::new("trailingBytes", words, None)
-    });
+    let (mesh, assumptions) =
+        (parts.into_mesh(format != MeshFormat::Stl)).map_err(in_format(format.title()))?;
     let mut file = MeshFile {
-        assumptions: precision::coarse_coordinates(&mesh)
+        assumptions: unit::coarse_coordinates(&mesh)
             .into_iter()
-            .chain(points)
-            .chain(polygons)
-            .chain(trailing)
+            .chain(assumptions)
             .collect(),
         mesh,
         textures,

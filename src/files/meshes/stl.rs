@@ -8,6 +8,7 @@ use super::builder::{DEFAULT_VERTEX_COLOUR, MeshBuilder};
 use super::narrow::narrowed;
 use super::rows::point;
 use crate::error::Result;
+use crate::files::Assumption;
 use crate::files::buffer::Buffer;
 use crate::files::failure::{damaged, unsupported};
 use crate::files::mesh_format::{STL_HEADER_BYTES, STL_TRIANGLE_BYTES, is_ascii_stl, stl_length};
@@ -39,7 +40,12 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
                 format!("the file of {length} bytes is too short for the triangles that it states");
             damaged(reason)
         })?;
-    parts.trailing_bytes = bytes.len() - STL_HEADER_BYTES - triangles.len();
+    let trailing = bytes.len() - STL_HEADER_BYTES - triangles.len();
+    if trailing > 0 {
+        let words =
+            format!("the last {trailing} of its bytes are no triangles: its header states fewer");
+        (parts.assumptions).push(Assumption::new("trailingBytes", words, None));
+    }
     let triangles = triangles.as_chunks::<STL_TRIANGLE_BYTES>().0;
     let attributes =
         (triangles.iter()).map(|triangle| u16::from_le_bytes([triangle[48], triangle[49]]));

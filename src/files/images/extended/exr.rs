@@ -140,10 +140,8 @@ fn choose_channels(layers: &[Header], wanted: Option<&str>) -> Result<(usize, Ch
     let flat = layers.iter().enumerate().filter(|(_, header)| !header.deep);
     let named: Vec<NamedChannel> = flat.flat_map(named_channels).collect();
     let Some((layer, chosen)) = heights_among(&named, layers, wanted) else {
-        let names: Vec<String> = (named.iter())
-            .map(|channel| format!("`{}`", channel.full))
-            .collect();
-        let names = names.join(", ");
+        let names: Vec<&str> = named.iter().map(|channel| &*channel.full).collect();
+        let names = format!("`{}`", names.join("`, `"));
         return Err(not_read(match wanted {
             _ if named.is_empty() => "deep data; only flat images are read".into(),
             Some(wanted) => format!("it has no channel `{wanted}`, only {names}"),
@@ -196,49 +194,49 @@ fn heights_among(
             (other.layer, &other.group, &*other.name) == (one.layer, &one.group, wanted)
         })
     };
-    // The coordinates of a normal or of a place in the scene are no depths.
-    let is_of_vector = |one: &NamedChannel| !one.group.is_empty() && beside(one, "x").is_some();
-    let single = |is_meant: &dyn Fn(&NamedChannel) -> bool| -> Vec<Vec<&NamedChannel>> {
-        let meant = named.iter().filter(|one| is_meant(one));
-        meant.map(|one| vec![one]).collect()
+    let is_grey =
+        |one: &NamedChannel| one.name == "r" && beside(one, "g").and(beside(one, "b")).is_some();
+    // The first of them is the surest one.
+    let rank = |one: &NamedChannel| {
+        if let Some(wanted) = wanted {
+            return one.full.eq_ignore_ascii_case(wanted).then_some(0);
+        }
+        // The coordinates of a normal or of a place in the scene are no depths.
+        let is_of_vector = !one.group.is_empty() && beside(one, "x").is_some();
+        let name = HEIGHT_NAMES
+            .iter()
+            .position(|name| *name == one.name && !is_of_vector);
+        let behind = HEIGHT_NAMES.len();
+        match name {
+            _ if of_depth(one) && ["v", "z"].contains(&&*one.name) => Some(0),
+            Some(place) => Some(1 + place),
+            None if is_grey(one) => Some(behind + if of_depth(one) { 1 } else { 2 }),
+            None => (layers[one.layer].channels.list.len() == 1).then_some(behind + 3),
+        }
     };
-    let grey = |is_meant: &dyn Fn(&NamedChannel) -> bool| -> Vec<Vec<&NamedChannel>> {
-        let reds = named.iter().filter(|one| one.name == "r" && is_meant(one));
-        reds.filter_map(|red| Some(vec![red, beside(red, "g")?, beside(red, "b")?]))
-            .collect()
-    };
-    let called = |name: &str| single(&|one| one.name == name && !is_of_vector(one));
-    let is_only = |one: &NamedChannel| layers[one.layer].channels.list.len() == 1;
-    let found = match wanted {
-        Some(wanted) => single(&|one| one.full.eq_ignore_ascii_case(wanted)),
-        None => std::iter::once(single(&|one| {
-            of_depth(one) && ["v", "z"].contains(&&*one.name)
-        }))
-        .chain(HEIGHT_NAMES.map(called))
-        .chain([grey(&of_depth), grey(&|_| true), single(&is_only)])
-        .find(|found| !found.is_empty())?,
-    };
-    let (chosen, others) = found.split_first()?;
-    let names: Vec<String> = (others.iter().filter(|_| wanted.is_none()))
-        .map(|other| format!("`{}`", other[0].full))
-        .collect();
-    let assumption = (!names.is_empty()).then(|| {
+    let best = named.iter().filter_map(rank).min()?;
+    let mut meant = named.iter().filter(|one| rank(one) == Some(best));
+    let chosen = meant.next()?;
+    let others: Vec<&str> = meant.map(|other| &*other.full).collect();
+    let assumption = (!others.is_empty()).then(|| {
         let words = format!(
-            "`{}` is meant, and not {}",
-            chosen[0].full,
-            names.join(", ")
+            "`{}` is meant, and not `{}`",
+            chosen.full,
+            others.join("`, `")
         );
         Assumption::new("channel", words, "array")
     });
-    let heights: Vec<usize> = chosen.iter().map(|one| one.index).collect();
-    let alpha = beside(chosen[0], "a").map(|one| one.index);
-    let alpha = alpha.filter(|index| !heights.contains(index));
+    let colours = match wanted.is_none() && is_grey(chosen) {
+        true => &["r", "g", "b"][..],
+        false => &[&*chosen.name],
+    };
+    let heights = colours.iter().filter_map(|name| beside(chosen, name));
     let chosen_channels = ChosenChannels {
-        heights,
-        alpha,
+        heights: heights.map(|one| one.index).collect(),
+        alpha: (beside(chosen, "a").map(|one| one.index)).filter(|index| *index != chosen.index),
         assumption,
     };
-    Some((chosen[0].layer, chosen_channels))
+    Some((chosen.layer, chosen_channels))
 }
 
 fn failed(error: ExrError) -> Error {

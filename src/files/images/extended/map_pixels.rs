@@ -1,53 +1,39 @@
 //! How large the pixels of an image are on a map, in metres, and how they lie there.
 
-use std::f64::consts::PI;
-
 use crate::files::images::decoded::differ;
 use crate::files::images::georeference::Georeference;
 
 /// Number of the key `GTModelTypeGeoKey` of the GeoTIFF format, which tells whether coordinates are lengths or degrees.
 const MODEL_TYPE_KEY: u16 = 1024;
-
 /// Value of the key `GTModelTypeGeoKey` of the GeoTIFF format for degrees of longitude and latitude.
 const MODEL_TYPE_GEOGRAPHIC: u16 = 2;
-
 /// Number of the key `ProjectedCSTypeGeoKey` of the GeoTIFF format, the coordinate system of a map by its number in EPSG.
 const MAP_SYSTEM_KEY: u16 = 3072;
-
 /// Value of the key `ProjectedCSTypeGeoKey` of the GeoTIFF format for the Web Mercator map, whose coordinates are lengths on the equator.
 const WEB_MERCATOR: u16 = 3857;
-
 /// Number of the key `ProjLinearUnitsGeoKey` of the GeoTIFF format, the unit of map coordinates.
 const LINEAR_UNIT_KEY: u16 = 3076;
-
 /// Number of the key `ProjLinearUnitSizeGeoKey` of the GeoTIFF format, the length of that unit in metres if it has no number.
 const LINEAR_UNIT_SIZE_KEY: u16 = 3077;
-
 /// Number of the key `GeogAngularUnitsGeoKey` of the GeoTIFF format, the unit of longitudes and latitudes.
 const ANGULAR_UNIT_KEY: u16 = 2054;
-
 /// Number of the key `GeogAngularUnitSizeGeoKey` of the GeoTIFF format, the size of that unit in radians if it has no number.
 const ANGULAR_UNIT_SIZE_KEY: u16 = 2055;
-
 /// Sizes of angular units in degrees, by their numbers in the GeoTIFF format: radian, degree, minute and second of arc, grad and gon.
 const UNIT_DEGREES: [(u16, f64); 6] = [
-    (9101, 180.0 / PI),
+    (9101, 57.295_779_513_082_32),
     (9102, 1.0),
     (9103, 1.0 / 60.0),
     (9104, 1.0 / 3600.0),
     (9105, 0.9),
     (9106, 0.9),
 ];
-
 /// Number of the TIFF tag `GeoDoubleParams`, which holds the values of some keys of the GeoTIFF format.
 const DOUBLES_TAG: u16 = 34_736;
-
 /// Number of the key `VerticalUnitsGeoKey` of the GeoTIFF format, the unit of heights.
 const VERTICAL_UNIT_KEY: u16 = 4099;
-
 /// Number of the key `VerticalGeoKey` of the GeoTIFF format, the coordinate system of heights.
 const VERTICAL_SYSTEM_KEY: u16 = 4096;
-
 /// Coordinate systems of heights in feet, by their numbers in EPSG, which the GeoTIFF format takes, and the numbers of their units: NAVD 88, NGVD 29 and mean sea
 /// level. GDAL names the system alone.
 const HEIGHTS_IN_FEET: [(u16, u16); 5] = [
@@ -57,19 +43,14 @@ const HEIGHTS_IN_FEET: [(u16, u16); 5] = [
     (8050, 9002),
     (8052, 9003),
 ];
-
 /// Lengths of units in metres, by their numbers in the GeoTIFF format: metre, international foot, US survey foot.
 const UNIT_METRES: [(u16, f64); 3] = [(9001, 1.0), (9002, 0.3048), (9003, 1200.0 / 3937.0)];
-
 /// Ends of the names of coordinate systems in feet, as EPSG has them, and the numbers of their units in the GeoTIFF format.
 const UNIT_NAMES: [(&str, u16); 2] = [("(ftUS)", 9003), ("(ft)", 9002)];
-
 /// Semi-major axis of the ellipsoid of the specification WGS 84, in metres.
 const ELLIPSOID_AXIS_METRES: f64 = 6_378_137.0;
-
 /// Square of the first eccentricity of the ellipsoid of the specification WGS 84.
 const ELLIPSOID_ECCENTRICITY_SQUARED: f64 = 0.006_694_379_990_14;
-
 /// Keys of the GeoTIFF format for degrees on WGS 84 (EPSG 4326) at the middles of pixels.
 const WGS84_KEYS: [u16; 16] = [1, 1, 0, 3, 1024, 0, 1, 2, 1025, 0, 1, 2, 2048, 0, 1, 4326];
 
@@ -230,67 +211,35 @@ mod tests {
     use super::*;
 
     #[test]
-    fn degrees_have_the_lengths_of_tables() {
-        // Lengths of a degree at 45 degrees on WGS 84: 78.847 km and 111.132 km.
-        let [x, y] = metres_per_degree(45.0);
-        assert!(
-            (x - 78_847.0).abs() < 1.0 && (y - 111_132.0).abs() < 1.0,
-            "{x} {y}"
-        );
-    }
-
-    #[test]
-    fn a_web_mercator_map_has_the_lengths_of_the_ground() {
-        // 60° N is 8,399,737.89 there (EPSG's Guidance Note 7-2), and a degree 55.800 km by 111.412 km on the ground.
-        let map = Georeference::new(
-            [10.0, 0.0, 0.0, 0.0, -10.0, 8_399_737.89],
-            &[1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 3857],
-        );
-        let [x, y] = map.pixel_sides((0, 0));
-        let degree = 111_319.491;
-        assert!((x - 10.0 * 55_800.0 / degree).abs() < 1e-3, "{x}");
-        assert!((y - 10.0 * 111_412.0 / (2.0 * degree)).abs() < 1e-3, "{y}");
-    }
-
-    #[test]
-    fn a_unit_without_a_number_has_its_length() {
-        // As GDAL writes kilometres.
-        let keys = [
-            1, 1, 0, 3, 1024, 0, 1, 1, 3076, 0, 1, 32767, 3077, 34736, 1, 1,
+    fn pixels_have_the_lengths_of_the_ground() {
+        // A degree on WGS 84 at 45 degrees has 78.847 km and 111.132 km, and 50 grads, as GDAL writes NTF (Paris), are 45 degrees. 60° N
+        // is 8,399,737.89 on the Web Mercator map (EPSG's Guidance Note 7-2), and a degree there 55.800 km by 111.412 km on the ground.
+        let equator = 111_319.491;
+        let mercator = [55_800.0 / equator, 111_412.0 / (2.0 * equator)];
+        let foot = 1200.0 / 3937.0;
+        #[rustfmt::skip]
+        let maps: [(&[u16], &str, f64, [f64; 2]); 7] = [
+            (&[1024, 0, 1, 2], "", 45.0, [78_847.0, 111_132.0]),
+            (&[1024, 0, 1, 2, 2054, 0, 1, 9102], "", 45.0, [78_847.0, 111_132.0]),
+            (&[1024, 0, 1, 2, 2048, 0, 1, 4807, 2054, 0, 1, 9105], "", 50.0, [70_962.3, 100_018.8]),
+            (&[1024, 0, 1, 1, 3072, 0, 1, 3857], "", 8_399_737.89, mercator),
+            // As GDAL writes kilometres, and systems with heights, of whose name that of the map alone counts.
+            (&[1024, 0, 1, 1, 3076, 0, 1, 32767, 3077, 34736, 1, 1], "", 0.0, [1000.0; 2]),
+            (&[1024, 0, 1, 1, 3072, 0, 1, 2263], "New York (ftUS) + NAVD88 height", 0.0, [foot; 2]),
+            (&[1024, 0, 1, 1, 3072, 0, 1, 6347], "zone 18N + NAVD88 height (ftUS)", 0.0, [1.0; 2]),
         ];
-        let mut map = Georeference::new([0.5, 0.0, 0.0, 0.0, -0.5, 0.0], &keys);
-        map.doubles = vec![7.0, 1000.0];
-        assert_eq!(map.pixel_size((2, 2)), 500.0);
-        // As GDAL writes systems with heights: the name of the map alone counts.
-        let keys = [
-            1, 1, 1, 3, 1024, 0, 1, 1, 3072, 0, 1, 2263, 4096, 0, 1, 6360,
-        ];
-        let mut map = Georeference::new([3937.0, 0.0, 0.0, 0.0, -3937.0, 0.0], &keys);
-        for (name, side) in [
-            ("New York (ftUS) + NAVD88 height", 1200.0),
-            ("zone 18N + height (ftUS)", 3937.0),
-        ] {
-            map.text = name.to_owned();
-            assert!((map.pixel_size((2, 2)) - side).abs() < 1e-9, "{name}");
+        for (keys, name, north, known) in maps {
+            let keys = [&[1, 1, 0, 1][..], keys].concat();
+            let mut map = Georeference::new([1.0, 0.0, 0.0, 0.0, -1.0, north], &keys);
+            (map.doubles, map.text) = (vec![7.0, 1000.0], name.to_owned());
+            let unit = map.linear_unit().unwrap_or(1.0);
+            for (side, known) in map.pixel_sides((0, 0)).into_iter().zip(known) {
+                assert!(
+                    (side * unit / known - 1.0).abs() < 1e-5,
+                    "{keys:?}: {side} {known}"
+                );
+            }
         }
-    }
-
-    #[test]
-    fn grads_are_a_tenth_shorter_than_degrees() {
-        // As GDAL writes NTF (Paris): 50 grads are 45 degrees.
-        let keys = |unit: u16| {
-            let place = [
-                1, 1, 0, 3, 1024, 0, 1, 2, 2048, 0, 1, 4807, 2054, 0, 1, unit,
-            ];
-            Georeference::new([1e-3, 0.0, 3.0, 0.0, -1e-3, 50.0], &place)
-        };
-        assert_eq!(keys(9105).latitude((0, 0)), Some(45.0));
-        let [x, y] = keys(9105).pixel_sides((0, 0));
-        assert!(
-            (x - 70.962).abs() < 1e-3 && (y - 100.019).abs() < 1e-3,
-            "{x} {y}"
-        );
-        assert_eq!(keys(9102).latitude((0, 0)), Some(50.0));
     }
 
     #[test]

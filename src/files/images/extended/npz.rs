@@ -90,7 +90,7 @@ pub(super) fn decode(bytes: &[u8], array: Option<&str>) -> Result<StoredImage> {
         }
     };
     let name = &found.ok_or_else(|| {
-        let there = listed(&names);
+        let there = format!("`{}`", names.join("`, `"));
         not_read(match array {
             Some(wanted) => format!("it has no array `{wanted}`, only {there}"),
             None => format!("it holds {there}; choose one by the option `array`"),
@@ -142,11 +142,6 @@ fn names(archive: &ZipArchive<Cursor<&[u8]>>) -> Result<Vec<String>> {
 
 fn member(name: &str) -> String {
     format!("{name}.npy")
-}
-
-fn listed(names: &[String]) -> String {
-    let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
-    quoted.join(", ")
 }
 
 /// Adds the name of an array in an NPZ archive to the text of an error about that array.

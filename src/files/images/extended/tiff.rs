@@ -62,9 +62,8 @@ pub(super) fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<StoredImag
     let mut image = about.image;
     let further = tiff_tags::further_images(&mut file, stored)?;
     let masked = values.iter_mut().zip(further.mask.unwrap_or_default());
-    masked
-        .filter(|(_, has_data)| !has_data)
-        .for_each(|(value, _)| *value = f64::NAN);
+    let without = masked.filter(|(_, mask)| *mask == 0);
+    without.for_each(|(value, _)| *value = f64::NAN);
     if further.has_others {
         let words = "the first of several images is meant";
         (image.assumptions).push(Assumption::new("firstImage", words, None));

@@ -14,7 +14,6 @@ use ::tiff::{TiffError, TiffUnsupportedError};
 use ::weezl::decode::Decoder as LzwDecoder;
 use ::weezl::{BitOrder, LzwStatus};
 
-use super::tiff_tags::REDUCED_IMAGE_BIT;
 use crate::error::{Error, Result};
 use crate::files::failure::{damaged, not_read};
 
@@ -48,6 +47,9 @@ pub(crate) fn open<'a>(bytes: &'a [u8], max_bytes: usize) -> Result<File<'a>> {
         None => Ok(file),
     }
 }
+
+/// Bit of the TIFF tag `NewSubfileType` of an image that is another one at a lower resolution.
+pub(super) const REDUCED_IMAGE_BIT: u16 = 1;
 
 /// Number of the TIFF type of unsigned numbers of 32 bits.
 const LONG: u64 = 4;
@@ -110,6 +112,14 @@ pub(super) fn mask(file: &mut File, index: usize) -> Result<Vec<u8>> {
         DecodingResult::U8(bytes) => Ok(bytes),
         _ => Err(not_read("a mask of other numbers than bits")),
     }
+}
+
+/// Makes bytes of 0 or 255 of the bits of rows of `width`, each of which begins at a byte.
+pub(crate) fn unpacked_bits(rows: &[u8], width: usize) -> Vec<u8> {
+    let is_set = |row: &[u8], x: usize| row[x / 8] << (x % 8) & 0x80 != 0;
+    let rows = rows.chunks_exact(width.div_ceil(8));
+    rows.flat_map(|row| (0..width).map(move |x| if is_set(row, x) { u8::MAX } else { 0 }))
+        .collect()
 }
 
 /// Appends decompressed data, up to a length of the whole.

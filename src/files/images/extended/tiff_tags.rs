@@ -5,7 +5,7 @@ use ::tiff::decoder::ifd::Value;
 use ::tiff::tags::Tag;
 use nalgebra::{Matrix3, Matrix3x2, RowVector2, Vector3};
 
-use super::tiff_file::{self, File, failed};
+use super::tiff_file::{self, File, REDUCED_IMAGE_BIT, failed, unpacked_bits};
 use crate::error::Result;
 use crate::files::failure::{damaged, not_read};
 use crate::files::images::decode_options::DecodeOptions;
@@ -26,9 +26,6 @@ pub(crate) fn chunky_layout(file: &mut File) -> Result<BufferLayoutPreference> {
     Ok(layout)
 }
 
-/// Bit of the TIFF tag `NewSubfileType` of an image that is another one at a lower resolution.
-pub(super) const REDUCED_IMAGE_BIT: u16 = 1;
-
 /// Bit of the TIFF tag `NewSubfileType` of the mask of an image, in which 0 stands for no data.
 const MASK_BIT: u16 = 4;
 
@@ -37,8 +34,8 @@ const MASK_BIT: u16 = 4;
 pub(super) struct FurtherImages {
     /// Whether there are images of their own; overviews and masks are none.
     pub(super) has_others: bool,
-    /// Whether each pixel of the first image has data, if it has a mask.
-    pub(super) mask: Option<Vec<bool>>,
+    /// For each pixel of the first image 0 if it has no data, if there is a mask.
+    pub(super) mask: Option<Vec<u8>>,
 }
 
 /// Reads what follows the first image of a TIFF file, which has `width` columns and `height` rows.
@@ -55,18 +52,11 @@ pub(super) fn further_images(
         match kind.unwrap_or(0) & (REDUCED_IMAGE_BIT | MASK_BIT) {
             0 => found.has_others = true,
             MASK_BIT => {
-                let bytes = tiff_file::mask(file, index)?;
-                // Rows of bits begin at a byte.
-                let row_bytes = width.div_ceil(8);
-                let is_set = |i: usize| match bytes.len() == width * height {
-                    true => bytes[i] != 0,
-                    false => {
-                        let [x, y] = [i % width, i / width];
-                        let byte = bytes.get(y * row_bytes + x / 8).copied();
-                        byte.unwrap_or_default() << (x % 8) & 0x80 != 0
-                    }
-                };
-                found.mask = Some((0..width * height).map(is_set).collect());
+                let mut bytes = tiff_file::mask(file, index)?;
+                if bytes.len() != width * height {
+                    bytes = unpacked_bits(&bytes, width);
+                }
+                found.mask = Some(bytes);
             }
             _ => {}
         }

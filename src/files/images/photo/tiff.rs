@@ -8,7 +8,7 @@ use super::exif::PhotoTags;
 use super::pixels::{PhotoFile, PhotoPixels};
 use crate::error::Result;
 use crate::files::failure::{check_length, not_read};
-use crate::files::images::extended::tiff_file::{failed, open};
+use crate::files::images::extended::tiff_file::{failed, open, unpacked_bits};
 use crate::files::images::extended::tiff_tags::chunky_layout;
 
 /// Maximum memory that the TIFF decoder may allocate, in bytes.
@@ -38,18 +38,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
         | ColorType::GrayA(8 | 16)
         | ColorType::RGB(8 | 16)
         | ColorType::RGBA(8 | 16) => samples,
-        // Rows of bits begin at a byte.
-        ColorType::Gray(1) => (samples.chunks_exact(width.div_ceil(8)))
-            .flat_map(|row| {
-                (0..width).map(|x| {
-                    if row[x / 8] << (x % 8) & 0x80 > 0 {
-                        255
-                    } else {
-                        0
-                    }
-                })
-            })
-            .collect(),
+        ColorType::Gray(1) => unpacked_bits(&samples, width),
         ColorType::CMYK(8 | 16) => (samples.as_chunks::<4>().0.iter())
             .flat_map(|[c, m, y, k]| [c, m, y].map(|ink| printed(*ink, *k)))
             .collect(),

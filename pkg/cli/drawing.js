@@ -4,7 +4,7 @@ import { limits, patternMesh } from '../schema/pattern.js';
 import { titleOf } from './flat-image.js';
 import { optionsFrom } from './task.js';
 import { percent, say, succeed, toStderr } from './terminal.js';
-import { json } from './texts.js';
+import { json, reportFile } from './texts.js';
 
 /**
  * @typedef {import('./task.js').Task} Task
@@ -27,9 +27,7 @@ export function drawingOptions(task) {
 export async function patternFiles(task, drawing, plan) {
   const files = [{ path: task.output, bytes: await drawn(drawing, task.extension, titleOf(task.output)) }];
   const { assembly } = drawing;
-  if (task.report !== undefined) {
-    files.push({ path: task.report, bytes: json({ ...drawing.summary, ...plan, bends: bendTable(drawing), assembly: assembly?.steps }) });
-  }
+  files.push(...reportFile(task, { ...drawing.summary, ...plan, bends: bendTable(drawing), assembly: assembly?.steps }));
   if (task.assembly !== undefined && assembly !== undefined) {
     files.push({ path: task.assembly, bytes: task.assembly.toLowerCase().endsWith('.svg') ? assembly.picture : assembly.model });
   }

@@ -10,6 +10,7 @@ import { readForFit } from './inputs.js';
 import { Problem, status } from './problem.js';
 import { optionsFrom } from './task.js';
 import { during, fitInWords, percent, progressLine, succeed, toStderr } from './terminal.js';
+import { reportFile } from './texts.js';
 
 /**
  * @typedef {import('./task.js').Task} Task
@@ -35,11 +36,7 @@ export async function fit(task, signal) {
     files.push({ path: task.mtl, bytes: await developable.writeMtl(from(task.mtl, String(task.texture))) });
   }
   const { report } = surface;
-  if (task.report !== undefined) {
-    const text = `${JSON.stringify(report, undefined, 2)}\n`;
-    files.push({ path: task.report, bytes: new TextEncoder().encode(text) });
-  }
-  await writeWhole(files, signal);
+  await writeWhole([...files, ...reportFile(task, report)], signal);
   succeed(task.output, fitInWords(report));
   const { residualExceedsNoise, residualRatio, reason, tolerance, offsetRows, offsetColumns } = report.lambdaChoice ?? {};
   const lines = [offsetRows && 'rows', offsetColumns && 'columns'].filter(Boolean).join(' and ');

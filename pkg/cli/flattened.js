@@ -5,7 +5,7 @@ import { solve } from './fit.js';
 import { readForFit, readInput } from './inputs.js';
 import { Problem, status } from './problem.js';
 import { optionsFrom } from './task.js';
-import { json } from './texts.js';
+import { reportFile } from './texts.js';
 
 /**
  * @typedef {import('./task.js').Task} Task
@@ -78,6 +78,6 @@ export function spacing(task) {
  * @param {Task} task
  * @param {{ report: import('../types.js').UnrollReport, verdict: import('../types.js').Verdict, loss?: number, overreach?: number }} result
  */
-export function reported({ report: path }, { report, verdict, loss, overreach }) {
-  return path === undefined ? [] : [{ path, bytes: json({ verdict, loss, overreach, ...report }) }];
+export function reported(task, { report, verdict, loss, overreach }) {
+  return reportFile(task, { verdict, loss, overreach, ...report });
 }

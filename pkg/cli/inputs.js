@@ -10,7 +10,7 @@ import { flagOf } from './flags.js';
 import { Problem, status } from './problem.js';
 import { confirmSize } from './size.js';
 import { optionsFrom } from './task.js';
-import { during, say, toStderr } from './terminal.js';
+import { during, say, streams, toStderr } from './terminal.js';
 
 /**
  * @typedef {import('./task.js').Task} Task
@@ -319,6 +319,7 @@ function tellUndecided(task, file) {
  */
 export function tellAssumptions(path, file) {
   for (const line of assumptionsInWords(file)) say(`${path}: assumed: ${line}`);
+  streams().assumptions = file.assumptions;
   return file;
 }
 

@@ -44,7 +44,7 @@ export async function page(task, signal) {
     if (task.map !== undefined) files.push({ path: task.map, bytes: mapFile(flat, { width, height }) });
     const { size, unit, report, outline, light } = flat;
     figures = sizeInWords(flat);
-    reports.push({ ...(several && { input }), ...report, size, unit, light, ...(outline && { outline }) });
+    reports.push({ ...(several && { input }), ...report, size, unit, light, ...(outline && { outline }), assumptions: photo.assumptions });
     if (task.extension === '.pdf') {
       const paper = flat.width > flat.height ? [DEFAULT_PAPER[1], DEFAULT_PAPER[0]] : DEFAULT_PAPER;
       const extension = task.ink ? '.png' : '.jpg';

@@ -7,7 +7,7 @@ import { flattened, spacing } from './flattened.js';
 import { readForFit, readInput } from './inputs.js';
 import { optionsFrom } from './task.js';
 import { during, succeed } from './terminal.js';
-import { json, linesObj } from './texts.js';
+import { json, linesObj, reportFile } from './texts.js';
 
 /**
  * @typedef {import('./task.js').Task} Task
@@ -32,7 +32,7 @@ export async function analyze(task, signal) {
     const after = await developable.analyze(surface, { threshold, reference: input, ...spacing(task) });
     Object.assign(figures, { output: after.summary, deviation: after.deviation });
   }
-  await tell(task, json(figures), undefined, `figures of ${task.input}`, signal);
+  await tell(task, figures, undefined, `figures of ${task.input}`, signal);
 }
 
 /**
@@ -43,7 +43,7 @@ export async function patches(task, signal) {
   await checkPlaces(...task.written);
   const { surface, options } = await flattened(task, signal);
   const { labels, ...map } = await developable.patches(surface, { ...options, ...optionsFrom(meshPatches, task) });
-  await tell(task, json(map), await drawn(), `${map.patches.length} patches, ${map.creases.length} creases`, signal);
+  await tell(task, map, await drawn(), `${map.patches.length} patches, ${map.creases.length} creases`, signal);
 
   async function drawn() {
     const { rows, cols, spacing } = map;
@@ -67,22 +67,20 @@ export async function rulings(task, signal) {
   const { surface, options } = await flattened(task, signal);
   const { directions, confidence, ...field } = await developable.rulings(surface, { ...options, ...optionsFrom(tracing, task) });
   const frame = 'frame' in surface ? surface.frame : undefined;
-  await tell(task, json(field), task.extension === '.obj' ? linesObj(field.lines, frame) : undefined, `${field.lines.length} rulings`, signal);
+  await tell(task, field, task.extension === '.obj' ? linesObj(field.lines, frame) : undefined, `${field.lines.length} rulings`, signal);
 }
 
 /**
  * Writes a report, and what was drawn of it.
  * @param {Task} task
- * @param {Uint8Array} report
+ * @param {object} report
  * @param {Uint8Array | undefined} drawn
  * @param {string} figures in a few words
  * @param {AbortSignal} signal
  */
-async function tell({ output, report: path }, report, drawn, figures, signal) {
-  /** @type {File[]} */
-  const files = [{ path: output, bytes: drawn ?? report }];
-  if (path !== undefined) files.push({ path, bytes: report });
-  await writeWhole(files, signal);
+async function tell(task, report, drawn, figures, signal) {
+  const { output } = task;
+  await writeWhole([{ path: output, bytes: drawn ?? json(report) }, ...reportFile(task, report)], signal);
   if (output !== '-') succeed(output, figures);
 }
 

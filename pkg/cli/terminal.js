@@ -13,6 +13,7 @@ import { failed } from './system-errors.js';
  * @property {Buffer} [input] what standard input had, once it is read
  * @property {{ path: string, bytes: Uint8Array }} [kept] the only input, where its format had to be read from it
  * @property {Map<string, string | undefined>} [formats] names of the formats of inputs whose names do not tell them
+ * @property {import('../types.js').Assumption[]} [assumptions] what readers assumed of the input and no flag decides
  * @property {boolean} [quiet] whether nothing is said but why the command failed
  */
 

@@ -1,8 +1,18 @@
 /** Results as text: JSON, and OBJ of lines and of flat sheets. */
+import { streams } from './terminal.js';
 
 /** @param {unknown} value */
 export function json(value) {
   return new TextEncoder().encode(`${JSON.stringify(value, undefined, 2)}\n`);
+}
+
+/**
+ * The file of a report with what was assumed of the input, if one is asked for.
+ * @param {{ report?: string }} task
+ * @param {object} report
+ */
+export function reportFile({ report: path }, report) {
+  return path === undefined ? [] : [{ path, bytes: json({ ...report, assumptions: streams().assumptions ?? [] }) }];
 }
 
 /** Typed arrays as plain ones, for JSON. @param {object} object */

@@ -9,7 +9,7 @@ import { readMesh } from './inputs.js';
 import { chosenOf, tellPlans, withPlans } from './pattern.js';
 import { optionsFrom } from './task.js';
 import { during, meshFitInWords, percent, progressLine, say, succeed, toStderr } from './terminal.js';
-import { flatObj, json, linesObj, plainArrays } from './texts.js';
+import { flatObj, json, linesObj, plainArrays, reportFile } from './texts.js';
 
 /**
  * @typedef {import('./task.js').Task} Task
@@ -65,9 +65,9 @@ function fitted(task, mesh, signal) {
 
 /** What each command writes. @type {Record<string, (task: Task, surface: Mesh, mesh: Mesh, exact: boolean) => Promise<File[]>>} */
 const made = {
-  async fit({ output, extension, report: path }, surface) {
+  async fit(task, surface) {
     const { report } = /** @type {import('../types.js').MeshSurface} */ (surface);
-    return [{ path: output, bytes: await writeMesh(extension, surface) }, ...(path === undefined ? [] : [{ path, bytes: json(report) }])];
+    return [{ path: task.output, bytes: await writeMesh(task.extension, surface) }, ...reportFile(task, report)];
   },
 
   async analyze({ output, asIs, threshold }, surface, mesh) {
@@ -77,18 +77,17 @@ const made = {
   },
 
   async rulings(task, surface) {
-    const { output, extension, report: path } = task;
+    const { output, extension } = task;
     const { lines } = await developable.meshRulings(surface, optionsFrom(meshRulings, task));
-    const report = json({ lines });
-    const bytes = extension === '.obj' ? linesObj(lines) : report;
-    return [{ path: output, bytes }, ...(path === undefined ? [] : [{ path, bytes: report }])];
+    const bytes = extension === '.obj' ? linesObj(lines) : json({ lines });
+    return [{ path: output, bytes }, ...reportFile(task, { lines })];
   },
 
-  async unroll({ output, extension, report: path }, surface) {
+  async unroll(task, surface) {
     const sheets = await during('laying it flat', (watched) => developable.unrollMesh(surface, watched));
     const { patches, creases, report } = sheets;
-    const bytes = extension === '.obj' ? flatObj(sheets) : json(plainArrays(sheets));
-    return [{ path: output, bytes }, ...(path === undefined ? [] : [{ path, bytes: json({ ...report, patches, creases }) }])];
+    const bytes = task.extension === '.obj' ? flatObj(sheets) : json(plainArrays(sheets));
+    return [{ path: task.output, bytes }, ...reportFile(task, { ...report, patches, creases })];
   },
 
   async pattern(task, surface, _mesh, exact) {

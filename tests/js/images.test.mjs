@@ -78,7 +78,10 @@ test('arrays of an archive are chosen by name', async () => {
   assert.throws(() => direct.read(bytes), error('UNSUPPORTED', /`depth`, `confidence`.*option `array`/));
   assert.deepEqual([...direct.read(bytes, { array: 'confidence' }).data], ramp);
   const exr = await data('zip.exr');
-  assert.throws(() => direct.read(exr, { array: 'depth' }), error('OPTION', /NPZ/));
+  assert.deepEqual(direct.read(exr, { array: 'z' }), direct.read(exr));
+  assert.throws(() => direct.read(exr, { array: 'depth' }), error('UNSUPPORTED', /no channel `depth`, only `Z`/));
+  const tiff = await data('unequal.tif');
+  assert.throws(() => direct.read(tiff, { array: 'depth' }), error('OPTION', /NPZ and EXR/));
 });
 
 test('what is wrong with a file is an error', async () => {
@@ -164,7 +167,13 @@ test('a size of pixels that is given is the one that is solved with and written'
   assert.match(fit.stderr, /pixels are 2 wide, which was given, and not 0\.5 × 0\.6, which the file says/);
   const back = direct.read(await readFile(join(folder, 'two.tif')));
   assert.deepEqual([back.width, back.pixelSize, back.georeference?.transformation], [24, 2, [2, 0, 4e5, 0, -2, 5.4e6]]);
-  await developableCommand('fit map.tif -o own.tif');
+  const solved = await developableCommand('fit map.tif -o own.tif --report own.json');
+  // What was assumed is the same wherever it is told.
+  const { assumptions } = JSON.parse(await readFile(join(folder, 'own.json'), 'utf8'));
+  const info = await developableCommand('info map.tif');
+  assert.deepEqual(assumptions, direct.read(await readFile(join(folder, 'map.tif'))).assumptions);
+  assert.deepEqual(assumptions.map((/** @type {{ code: string }} */ { code }) => code), ['squarePixels']);
+  for (const { words } of assumptions) assert.ok(solved.stderr.includes(`assumed: ${words} (--`) && info.stdout.includes(words), words);
   const own = direct.read(await readFile(join(folder, 'own.tif')));
   assert.deepEqual([own.width, own.pixelSize, own.georeference?.transformation], [20, 0.6, [0.6, 0, 4e5, 0, -0.6, 5.4e6]]);
 });

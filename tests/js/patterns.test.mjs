@@ -452,7 +452,7 @@ test('the command', async () => {
   const report = JSON.parse(await readFile(join(folder, 'card.json'), 'utf8'));
   // A report is asked for, and so are its sheets folded back.
   const { summary } = direct.pattern(card, { scale, refold: true });
-  assert.deepEqual(report, { ...summary, assembly: [{ sheet: 0, joints: [] }] });
+  assert.deepEqual(report, { ...summary, assembly: [{ sheet: 0, joints: [] }], assumptions: [] });
   assert.ok(/** @type {number} */ (summary.refolding) < 1e-3);
   assert.deepEqual(await command(`${from} -o card.pdf --scale ${scale} --stock letter`), silent);
   assert.equal((await readPdf(await readFile(join(folder, 'card.pdf')))).length, drawing.summary.letter);

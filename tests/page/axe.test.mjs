@@ -91,6 +91,7 @@ pageTest('with more contrast, text has 7 to 1, and borders are seen', async (pag
   // With the system's colours, what has no border otherwise is told from its ground; progress that moves is the browser's own.
   await page.emulateMedia({ contrast: 'no-preference', forcedColors: 'active', reducedMotion: 'reduce' });
   await painted(page);
+  await page.locator('#running progress').evaluate((bar) => bar.removeAttribute('value'));
   const drawn = await page.evaluate(() => ['.frame', '#running progress'].map((one) => getComputedStyle(/** @type {Element} */ (document.querySelector(one))).borderTopWidth));
   assert.deepEqual(drawn, ['1px', '1px']);
 });

@@ -90,9 +90,13 @@ pageTest('examples are smoother than their input, and closer to the truth', asyn
 pageTest('progress moves the bar', async (page) => {
   await page.evaluate(() => {
     const bar = /** @type {HTMLProgressElement} */ (document.querySelector('#running progress'));
-    const values = /** @type {(number | null)[]} */ ([]);
-    Object.assign(window, { values });
-    new MutationObserver(() => values.push(bar.hasAttribute('value') ? bar.value : null)).observe(bar, { attributes: true });
+    const [values, far] = [/** @type {(number | null)[]} */ ([]), /** @type {number[]} */ ([])];
+    Object.assign(window, { values, far });
+    new MutationObserver(() => {
+      values.push(bar.hasAttribute('value') ? bar.value : null);
+      const [, percent = '0'] = /Within ([\d.]+)/.exec(bar.nextElementSibling?.textContent ?? '') ?? [];
+      if (Number(percent) > 5) far.push(bar.value);
+    }).observe(bar, { attributes: true });
   });
   await runBy(page, () => page.getByLabel('Proven within').selectOption('0.001'));
   // Where nothing is known of what is left, the bar has no value: so it is at the end, too, when the gap has been reached.
@@ -101,6 +105,8 @@ pageTest('progress moves the bar', async (page) => {
   assert.ok(moved.size >= 4, `the bar stood at ${[...moved]}`);
   assert.deepEqual(values, values.toSorted((/** @type {number} */ a, /** @type {number} */ b) => a - b), 'never back');
   assert.ok(values.at(-1) > 0.9, `${values.at(-1)}`);
+  const far = await page.evaluate(() => /** @type {any} */ (window).far);
+  assert.ok(Math.max(...far) < 0.9, `the bar stood at ${far} while the gap was large`);
 }, { start: '#example=roof' });
 
 pageTest('a large run ends even where its worker does not listen, and what was there stays', async (page) => {

@@ -5,14 +5,16 @@ import { waitingPanel } from './waiting.js';
 
 /** Share of the progress for the coarser lattices. */
 const COARSE_LATTICES_SHARE = 0.25;
+/** Number of times that the gap descends with the default energy: in the solve, and in each of its two passes over the creases. */
+const HUBER_DESCENTS = 3;
 
 /** @param {Session} session @param {MeshFit} meshFit @param {Stage} stage */
 export function runPanel(session, meshFit, stage) {
   const form = element('controls', HTMLFormElement);
   const solve = element('run', HTMLButtonElement);
   const running = element('running', HTMLElement);
-  /** First gap below 1 on the finest lattice. */
-  let firstGap = NaN;
+  /** The present descent of the gap on the finest lattice: its first gap below 1, its last one, the progress before it, and how many are left. */
+  let descent = { first: NaN, last: NaN, before: 0, left: 0 };
   /** Share of the progress that was told, which must not go back: λ may be chosen on finer lattices than the solve begins with. */
   let told = 0;
   /** Number of coarser lattices so far. */
@@ -37,7 +39,7 @@ export function runPanel(session, meshFit, stage) {
     if (hadFocus) (isStale ? solve : element('lambda', HTMLInputElement)).focus();
   };
   const begin = () => {
-    [firstGap, levels, told] = [NaN, 0, 0];
+    [levels, told, descent] = [0, 0, { first: NaN, last: NaN, before: 0, left: session.settings.energy === 'huber' ? HUBER_DESCENTS : 1 }];
     form.removeAttribute('data-stale');
     solve.classList.remove('primary');
     waiting.begin('solving');
@@ -53,10 +55,13 @@ export function runPanel(session, meshFit, stage) {
       told = Math.max(told, COARSE_LATTICES_SHARE * (1 - level / (levels + 1)));
       return waiting.tell({ fraction: told, label: RUN_WORDS.coarse(level) });
     }
-    if (gap !== undefined && gap < 1) {
-      const coarse = levels > 0 ? COARSE_LATTICES_SHARE : 0;
-      if (Number.isNaN(firstGap)) firstGap = gap;
-      if (firstGap > 0) told = Math.max(told, coarse + (1 - coarse) * gapProgress(gap, firstGap, session.settings.gap));
+    if (gap !== undefined) {
+      // A pass begins anew.
+      if (gap > descent.last) descent = { first: NaN, last: gap, before: told, left: Math.max(1, descent.left - 1) };
+      else if (Number.isNaN(descent.last)) descent.before = told;
+      descent.last = gap;
+      if (gap < 1) descent.first ||= gap;
+      told = Math.max(told, descent.before + ((1 - descent.before) / descent.left) * gapProgress(gap, descent.first, session.settings.gap));
     }
     waiting.tell({ fraction: told, label: RUN_WORDS.fine(gap, iteration) });
   });
@@ -87,5 +92,5 @@ function canBeShown(field) {
  */
 function gapProgress(gap, firstGap, requestedGap) {
   if (!(gap > requestedGap)) return 1;
-  return Math.min(1, Math.max(0, Math.log(firstGap / gap) / Math.log(firstGap / requestedGap)));
+  return Math.min(1, Math.max(0, Math.log(firstGap / gap) / Math.log(firstGap / requestedGap) || 0));
 }

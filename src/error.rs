@@ -254,9 +254,9 @@ impl Error {
     }
 
     /// Makes an [`Error::Edges`] with the reason why traced edges cannot be a page's.
-    pub(crate) fn edges(reason: &str) -> Self {
+    pub(crate) fn edges(reason: impl Into<String>) -> Self {
         Error::Edges {
-            reason: reason.to_string(),
+            reason: reason.into(),
         }
     }
 

@@ -55,7 +55,15 @@ impl WarpMap {
         };
         check_crop(polygon)?;
         let mut map = self;
-        let [rows, cols] = map.bounds(polygon)?;
+        let is_inside = |place: &[f32; 2]| {
+            !place[0].is_nan() && polygon_contains(polygon, place.map(f64::from))
+        };
+        let [rows, cols] = map.bounds(is_inside).ok_or_else(|| Error::Unsupported {
+            format: "flat image",
+            reason: "nothing of the sheet lies within the part of the photo that is wanted: its corners are in pixels of \
+                     the photo, from its upper left"
+                .into(),
+        })?;
         let margin = (MAX_CONTINUATION_SHARE * rows.len().max(cols.len()) as f64).ceil() as usize;
         let near = |range: Range<usize>, end: usize| {
             range.start.saturating_sub(margin)..(range.end + margin).min(end)
@@ -113,45 +121,22 @@ impl WarpMap {
 
     /// Removes empty rows and columns around the sheet from the flat image.
     fn tight(mut self) -> Result<Self> {
-        let width = self.width();
-        let there = |i: usize| !self.places()[i][0].is_nan();
-        let rows: Vec<usize> = (0..self.height())
-            .filter(|row| (0..width).any(|col| there(row * width + col)))
-            .collect();
-        let cols: Vec<usize> = (0..width)
-            .filter(|col| rows.iter().any(|row| there(row * width + col)))
-            .collect();
-        if let ([top, ..], [.., bottom], [left, ..], [.., right]) =
-            (&rows[..], &rows[..], &cols[..], &cols[..])
-        {
-            let (rows, cols) = (*top..bottom + 1, *left..right + 1);
+        if let Some([rows, cols]) = self.bounds(|place| !place[0].is_nan()) {
             self.crop_to(rows, cols)?;
         }
         Ok(self)
     }
 
-    /// Finds the rows and columns of the flat image that show places inside a polygon in the photo.
-    fn bounds(&self, polygon: &[[f64; 2]]) -> Result<[Range<usize>; 2]> {
+    /// Finds the rows and columns of the flat image that show wanted places in the photo; None if there are none.
+    fn bounds(&self, is_wanted: impl Fn(&[f32; 2]) -> bool) -> Option<[Range<usize>; 2]> {
         let (mut first, mut last) = ([usize::MAX; 2], [0; 2]);
-        for (row, line) in self.places().chunks_exact(self.width()).enumerate() {
-            for (col, place) in line.iter().enumerate() {
-                if !place[0].is_nan() && polygon_contains(polygon, place.map(f64::from)) {
-                    for (k, at) in [row, col].into_iter().enumerate() {
-                        first[k] = first[k].min(at);
-                        last[k] = last[k].max(at + 1);
-                    }
-                }
+        for (i, _) in (self.places().iter().enumerate()).filter(|(_, place)| is_wanted(place)) {
+            for (k, at) in [i / self.width(), i % self.width()].into_iter().enumerate() {
+                first[k] = first[k].min(at);
+                last[k] = last[k].max(at + 1);
             }
         }
-        if first[0] >= last[0] {
-            let reason = "nothing of the sheet lies within the part of the photo that is wanted: its \
-                          corners are in pixels of the photo, from its upper left";
-            return Err(Error::Unsupported {
-                format: "flat image",
-                reason: reason.into(),
-            });
-        }
-        Ok([0, 1].map(|k| first[k]..last[k]))
+        (first[0] < last[0]).then(|| [0, 1].map(|k| first[k]..last[k]))
     }
 
     /// Finds the pixel of the flat image whose place in the photo is nearest to the place `wanted`.

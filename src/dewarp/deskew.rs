@@ -3,6 +3,7 @@
 use super::WarpMap;
 use crate::error::{Result, checked_cells, try_filled};
 use crate::math::lanes;
+use crate::math::planar::LeastBox;
 
 impl WarpMap {
     /// Rotates the map counter-clockwise by an angle in radians, on a larger image that holds it. Places are
@@ -58,25 +59,8 @@ impl WarpMap {
                 points.extend([first, last].map(|col| [col as f64, -(row as f64)]));
             }
         }
-        let hull = convex_hull(points);
-        let mut best = (f64::INFINITY, 0.0);
-        for (from, to) in hull.iter().zip(hull.iter().cycle().skip(1)) {
-            let angle = modulo_right_angle((to[1] - from[1]).atan2(to[0] - from[0]));
-            let (sin, cos) = angle.sin_cos();
-            let span = |axis: [f64; 2]| {
-                let along = hull.iter().map(|p| p[0] * axis[0] + p[1] * axis[1]);
-                let [low, high] = along
-                    .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
-                        [low.min(v), high.max(v)]
-                    });
-                high - low
-            };
-            let area = span([cos, sin]) * span([-sin, cos]);
-            if area < best.0 {
-                best = (area, angle);
-            }
-        }
-        -best.1
+        let (LeastBox { turn, .. }, _) = LeastBox::turned_and_upright(points);
+        modulo_right_angle(turn[1].atan2(turn[0]))
     }
 }
 
@@ -98,30 +82,6 @@ fn modulo_right_angle(angle: f64) -> f64 {
     angle - (angle / FRAC_PI_2).round() * FRAC_PI_2
 }
 
-/// Computes the convex hull of points (A. M. Andrew, *Another efficient algorithm for convex hulls in two dimensions*,
-/// 1979).
-fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    points.dedup();
-    let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {
-        let mut chain: Vec<[f64; 2]> = Vec::new();
-        for point in points {
-            while let [.., a, b] = chain[..]
-                && (b[0] - a[0]) * (point[1] - a[1]) <= (b[1] - a[1]) * (point[0] - a[0])
-            {
-                chain.pop();
-            }
-            chain.push(point);
-        }
-        chain.pop();
-        chain
-    };
-    let mut lower = chain(&mut points.iter().copied());
-    let upper = chain(&mut points.iter().rev().copied());
-    lower.extend(upper);
-    lower
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -133,9 +93,6 @@ mod tests {
             let corners = [[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [0.0, 1.0]]
                 .map(|[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y]);
             assert!((polygon_skew(&corners) + angle).abs() < 1e-12, "{angle}");
-            let inside = [1.4 * cos - 0.5 * sin, 1.4 * sin + 0.5 * cos];
-            let points = corners.into_iter().chain([inside]).collect();
-            assert_eq!(convex_hull(points).len(), 4);
         }
     }
 }

@@ -4,6 +4,7 @@ use super::charts::ChartSeams;
 use super::registration::PhotoProjection;
 use crate::error::{Result, try_filled};
 use crate::math::index::NO_INDEX;
+use crate::math::planar::orientation;
 use crate::unroll::Unrolling;
 
 /// A corner of a triangle that is rasterised into the flat image.
@@ -61,7 +62,7 @@ pub(super) fn rasterise(
     };
     let is_turned_over = |t: &[u32; 3]| {
         let [p, q, r] = t.map(|v| sheet.places()[v as usize]);
-        doubled_area(p, q, r) < 0.0
+        orientation(p, q, r) < 0.0
     };
     let mesh = sheet.mesh();
     let triangles = mesh.triangles();
@@ -132,11 +133,6 @@ fn nearest_pieces(
     })
 }
 
-/// Twice the signed area of the triangle with corners `p`, `q` and `r`.
-fn doubled_area(p: [f64; 2], q: [f64; 2], r: [f64; 2]) -> f64 {
-    (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
-}
-
 impl Pixels<'_> {
     /// Covers the pixels in one triangle: writes their places in the photo, where there is none yet. `overlap` says
     /// whether a triangle lies on another one where both cover a pixel.
@@ -149,7 +145,7 @@ impl Pixels<'_> {
     ) {
         let [width, height] = self.size;
         let [a, b, c] = corners.map(|corner| corner.at);
-        let area = doubled_area(a, b, c);
+        let area = orientation(a, b, c);
         if area == 0.0 || !area.is_finite() {
             return;
         }
@@ -170,7 +166,7 @@ impl Pixels<'_> {
             // From the corner that is nearest to the left, so that little is lost by rounding.
             let start = a[0].min(b[0]).min(c[0]).floor().max(0.0);
             let pixel = [start, row as f64];
-            let weights = edges.map(|(from, to)| doubled_area(from, to, pixel) / area);
+            let weights = edges.map(|(from, to)| orientation(from, to, pixel) / area);
             let (mut first, mut last) = (0.0, width as f64 - 1.0 - start);
             for (weight, slope) in weights.into_iter().zip(slopes) {
                 let end = -(weight + slack) / slope;

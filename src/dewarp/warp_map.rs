@@ -9,6 +9,7 @@ use super::raster::{Canvas, rasterise};
 use super::registration::{PhotoProjection, Registration};
 use super::verdict::{MAX_FLAT_STRAIN, Verdict};
 use crate::error::{Error, Result, checked_cells, positive, try_filled};
+use crate::math::planar::{bounds, orientation};
 use crate::unroll::{UnrollReport, Unrolling};
 
 /// A warp map: for each pixel of a flat image its place in the photo.
@@ -64,7 +65,7 @@ impl WarpMap {
             Some(dots) => positive("dots", dots)?,
             None => photo_resolution(sheet, &projection)?,
         };
-        let (min, max) = bounds(sheet.places());
+        let [min, max] = bounds(sheet.places().iter());
         // Slightly less, so that a sheet of exactly n pixels has n pixels in spite of rounding.
         let pixels = |k: usize| ((max[k] - min[k]) * resolution - 1e-6).ceil().max(1.0) as usize;
         let (width, height) = (pixels(0), pixels(1));
@@ -329,9 +330,7 @@ fn photo_resolution(sheet: &Unrolling, projection: &PhotoProjection) -> Result<f
         return Ok((across * up).sqrt());
     }
     let mesh = sheet.mesh();
-    let area = |[a, b, c]: [[f64; 2]; 3]| {
-        ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
-    };
+    let area = |[a, b, c]: [[f64; 2]; 3]| orientation(a, b, c).abs();
     let (mut seen, mut flat) = (0.0, 0.0);
     for triangle in mesh.triangles() {
         let corners = triangle.map(|v| {
@@ -353,16 +352,4 @@ fn photo_resolution(sheet: &Unrolling, projection: &PhotoProjection) -> Result<f
                  coordinates"
                 .into(),
     })
-}
-
-/// Lower left and upper right corner of the bounding box of points.
-fn bounds(places: &[[f64; 2]]) -> ([f64; 2], [f64; 2]) {
-    let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for place in places {
-        for k in 0..2 {
-            min[k] = min[k].min(place[k]);
-            max[k] = max[k].max(place[k]);
-        }
-    }
-    (min, max)
 }

@@ -192,8 +192,22 @@ pub(crate) struct LeastBox {
 }
 
 impl LeastBox {
-    /// Finds the box of least area around points, which aligns an edge of their convex hull with an axis.
+    /// Finds the box of least area around points, which aligns an edge of their convex hull with an axis; the upright one if
+    /// that is hardly larger.
     pub(crate) fn around(points: Vec<[f64; 2]>) -> LeastBox {
+        let (best, upright) = LeastBox::turned_and_upright(points);
+        match best.area() < (1.0 - MIN_TURN_AREA_SAVING) * upright.area() {
+            true => best,
+            false => upright,
+        }
+    }
+
+    fn area(&self) -> f64 {
+        self.size[0] * self.size[1]
+    }
+
+    /// Finds the box of least area around points, and the upright one.
+    pub(crate) fn turned_and_upright(points: Vec<[f64; 2]>) -> (LeastBox, LeastBox) {
         let hull = convex_hull(points);
         let boxed = |turn: [f64; 2]| {
             let turned = hull.iter().map(|[x, y]| {
@@ -212,7 +226,6 @@ impl LeastBox {
                 size: [high[0] - low[0], high[1] - low[1]],
             }
         };
-        let area = |found: &LeastBox| found.size[0] * found.size[1];
         let upright = boxed([1.0, 0.0]);
         let mut best = upright;
         for [p, q] in polygon_edges(&hull) {
@@ -220,20 +233,17 @@ impl LeastBox {
             let long = x.hypot(y);
             if long > 0.0 {
                 let found = boxed([x / long, -y / long]);
-                if area(&found) < (1.0 - 1e-9) * area(&best) {
+                if found.area() < (1.0 - 1e-9) * best.area() {
                     best = found;
                 }
             }
         }
-        match area(&best) < (1.0 - MIN_TURN_AREA_SAVING) * area(&upright) {
-            true => best,
-            false => upright,
-        }
+        (best, upright)
     }
 }
 
 /// Computes the corners of the convex hull of points, counter-clockwise (Andrew 1979).
-fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+pub(crate) fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
     points.dedup();
     if points.len() < 3 {

@@ -33,13 +33,11 @@ pub(super) fn arrange([first, second]: &mut [TracedLine; 2]) -> Result<()> {
             found = turns(first, second);
         }
         if !convex(&found) {
-            return Err(Error::Edges {
-                reason: format!(
-                    "the ends of the {} and {} edges are no corners of a page: they do not make a \
+            return Err(Error::edges(format!(
+                "the ends of the {} and {} edges are no corners of a page: they do not make a \
                      convex quadrilateral",
-                    first.name, second.name
-                ),
-            });
+                first.name, second.name
+            )));
         }
     } else if found[0] < 0.0 {
         // Both run backwards, or each is called by the other's name.
@@ -50,19 +48,17 @@ pub(super) fn arrange([first, second]: &mut [TracedLine; 2]) -> Result<()> {
             to[k] - from[k]
         };
         if runs(first) >= 0.0 || runs(second) >= 0.0 {
-            return Err(Error::Edges {
-                reason: format!(
-                    "the {} and {} edges show the page from behind: exchange them, or list the \
+            return Err(Error::edges(format!(
+                "the {} and {} edges show the page from behind: exchange them, or list the \
                      points of both from {}",
-                    first.name,
-                    second.name,
-                    if sideways {
-                        "top to bottom"
-                    } else {
-                        "left to right"
-                    }
-                ),
-            });
+                first.name,
+                second.name,
+                if sideways {
+                    "top to bottom"
+                } else {
+                    "left to right"
+                }
+            )));
         }
         first.points.reverse();
         second.points.reverse();
@@ -98,12 +94,10 @@ fn check_no_crossing(first: &TracedLine, second: &TracedLine) -> Result<()> {
     let Some([[x, y], ..]) = crossing else {
         return Ok(());
     };
-    Err(Error::Edges {
-        reason: format!(
-            "the {} and {} edges cross at about ({x:.0}, {y:.0}); a page's edges do not",
-            first.name, second.name
-        ),
-    })
+    Err(Error::edges(format!(
+        "the {} and {} edges cross at about ({x:.0}, {y:.0}); a page's edges do not",
+        first.name, second.name
+    )))
 }
 
 /// Orders the two pages of a spread, and checks that the second page's edges begin at the gutter, where the first
@@ -124,13 +118,11 @@ pub(super) fn arrange_spread(one: &mut TracedPage, other: &mut TracedPage) -> Re
     for e in 0..2 {
         let apart = distance(one[e].ends()[1], other[e].ends()[0]);
         if apart > MAX_CORNER_GAP_SHARE * one[e].chord().max(other[e].chord()) {
-            return Err(Error::Edges {
-                reason: format!(
-                    "the {} edges of the two pages end {apart:.0} pixels apart; the pages of a \
+            return Err(Error::edges(format!(
+                "the {} edges of the two pages end {apart:.0} pixels apart; the pages of a \
                      spread share the gutter, so that one edge begins where the other ends",
-                    one[e].name
-                ),
-            });
+                one[e].name
+            )));
         }
     }
     Ok(())
@@ -154,13 +146,11 @@ pub(super) fn check_sides(
         let [from, to] = side.ends();
         let apart = off([from, to]).min(off([to, from]));
         if apart > MAX_CORNER_GAP_SHARE * side.chord().max(first.chord()) {
-            return Err(Error::Edges {
-                reason: format!(
-                    "the {} edge ends {apart:.0} pixels from the corner that the {} and {} edges \
+            return Err(Error::edges(format!(
+                "the {} edge ends {apart:.0} pixels from the corner that the {} and {} edges \
                      have there; all four edges go from corner to corner",
-                    side.name, first.name, second.name
-                ),
-            });
+                side.name, first.name, second.name
+            )));
         }
     }
     Ok(())
@@ -186,13 +176,11 @@ pub(super) fn check_on_page(
     let is_beside = |at| sides().any(|(p, q)| distance_to_segment(at, [p, q]) < slack);
     for at @ [x, y] in points {
         if !polygon_contains(&outline, *at) && !is_beside(*at) {
-            return Err(Error::Edges {
-                reason: format!(
-                    "line {number} of the text (the first is line 0) has a point at ({x:.0}, \
+            return Err(Error::edges(format!(
+                "line {number} of the text (the first is line 0) has a point at ({x:.0}, \
                      {y:.0}), which is not between the {} and {} edges of its page",
-                    first.name, second.name
-                ),
-            });
+                first.name, second.name
+            )));
         }
     }
     Ok(())

@@ -205,14 +205,12 @@ fn read_line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result
         }
         Trace::Beziers(control) => {
             if control.len() < 4 || control.len() % 3 != 1 {
-                return Err(Error::Edges {
-                    reason: format!(
-                        "{} has {} control points; cubic Bézier curves that follow each other have \
+                return Err(Error::edges(format!(
+                    "{} has {} control points; cubic Bézier curves that follow each other have \
                          4, 7, 10 and so on",
-                        described(name),
-                        control.len()
-                    ),
-                });
+                    described(name),
+                    control.len()
+                )));
             }
             let mut points = sample_beziers(control);
             points.dedup();
@@ -222,17 +220,15 @@ fn read_line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result
     let ends = match &points[..] {
         [first, .., last] if distance(*first, *last) >= MIN_EDGE_LENGTH => [*first, *last],
         _ => {
-            return Err(Error::Edges {
-                reason: format!(
-                    "{} must go from one {} to the other, through at least 2 different points",
-                    described(name),
-                    if name == TEXT_LINE_NAME {
-                        "end"
-                    } else {
-                        "corner"
-                    },
-                ),
-            });
+            return Err(Error::edges(format!(
+                "{} must go from one {} to the other, through at least 2 different points",
+                described(name),
+                if name == TEXT_LINE_NAME {
+                    "end"
+                } else {
+                    "corner"
+                },
+            )));
         }
     };
     let [width, height] = photo.map(|n| n as f64);
@@ -242,13 +238,11 @@ fn read_line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result
         !(within(p[0], width) && within(p[1], height))
     };
     if let Some([x, y]) = points.iter().chain(&ends).find(outside) {
-        return Err(Error::Edges {
-            reason: format!(
-                "{} has a point at ({x:.0}, {y:.0}), outside of the photo of {width} by {height} \
+        return Err(Error::edges(format!(
+            "{} has a point at ({x:.0}, {y:.0}), outside of the photo of {width} by {height} \
                  pixels; give the places in pixels of this very photo",
-                described(name),
-            ),
-        });
+            described(name),
+        )));
     }
     Ok(TracedLine { name, points })
 }

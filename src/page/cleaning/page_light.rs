@@ -31,15 +31,20 @@ const FRINGE_CELLS: usize = 4;
 /// Radius, in cells, by which the light is smoothed.
 const SMOOTHING_RADIUS: usize = 1;
 
+/// Square cells of a flat page: the number of pixels along a side of one, and the numbers of their columns and rows.
+#[derive(Debug, Clone, Copy)]
+struct Cells {
+    side: usize,
+    columns: usize,
+    rows: usize,
+}
+
 /// Sums of colours over the cells of a flat page, from which the light on the page is estimated.
 #[derive(Debug, Clone)]
 pub struct LightEstimator {
     /// Number of columns of the page's image.
     width: usize,
-    /// Number of pixels along a side of a cell.
-    cell: usize,
-    columns: usize,
-    rows: usize,
+    cells: Cells,
     /// Sums of red, green and blue over the opaque pixels of each cell, and the number of these.
     sums: Vec<[u32; 4]>,
 }
@@ -54,9 +59,11 @@ impl LightEstimator {
         let (columns, rows) = (width.div_ceil(cell), height.div_ceil(cell));
         Ok(LightEstimator {
             width,
-            cell,
-            columns,
-            rows,
+            cells: Cells {
+                side: cell,
+                columns,
+                rows,
+            },
             sums: try_filled("light of a page", columns * rows, [0; 4])?,
         })
     }
@@ -67,8 +74,9 @@ impl LightEstimator {
     /// If the page has no such row.
     pub fn add_row(&mut self, row: usize, rgba: &[u8]) {
         debug_assert_eq!(rgba.len(), 4 * self.width);
-        let sums = &mut self.sums[row / self.cell * self.columns..][..self.columns];
-        for (sum, pixels) in sums.iter_mut().zip(rgba.chunks(4 * self.cell)) {
+        let Cells { side, columns, .. } = self.cells;
+        let sums = &mut self.sums[row / side * columns..][..columns];
+        for (sum, pixels) in sums.iter_mut().zip(rgba.chunks(4 * side)) {
             for [red, green, blue, alpha] in pixels.as_chunks().0 {
                 if *alpha == u8::MAX {
                     for (sum, value) in sum.iter_mut().zip([*red, *green, *blue, 1]) {
@@ -83,28 +91,34 @@ impl LightEstimator {
     /// closing, and pictures and coloured areas by interpolation from the paper around them. A page whose print is lighter
     /// than what is between it keeps its light.
     pub fn finish(self) -> PageLight {
-        let (columns, rows) = (self.columns, self.rows);
+        let Cells {
+            side,
+            columns,
+            rows,
+        } = self.cells;
+        let kept = |is_dark| PageLight {
+            cells: self.cells,
+            gains: None,
+            is_dark,
+        };
         let mut known: Vec<bool> = self.sums.iter().map(|sum| sum[3] > 0).collect();
         let mut raw = Planes {
             width: columns,
             height: rows,
             channels: [0, 1, 2].map(|k| self.sums.iter().map(|sum| logarithm(sum, k)).collect()),
-            scale: self.cell as f64,
+            scale: side as f64,
         };
         fill_gaps(&mut raw.channels, &known, columns, rows);
         let longer = columns.max(rows) as f64;
         let radius = (0.5 * MAX_STROKE_SHARE * longer) as usize;
         let mut paper = closed(&raw, radius);
         if is_dark(&raw, radius) {
-            return PageLight {
-                is_dark: true,
-                ..self.into()
-            };
+            return kept(true);
         }
         let shown = known.iter().filter(|known| **known).count();
         let plain = find_paper(&raw, &paper, &mut known);
         if (plain as f64) < MIN_PAPER_SHARE * shown as f64 || plain == 0 {
-            return self.into();
+            return kept(false);
         }
         fill_gaps(&mut paper.channels, &known, columns, rows);
         darken_fringe(&mut paper, &raw, &known);
@@ -115,7 +129,7 @@ impl LightEstimator {
         });
         PageLight {
             gains: Some(gains),
-            ..self.into()
+            ..kept(false)
         }
     }
 }
@@ -176,32 +190,11 @@ fn logarithm(sum: &[u32; 4], k: usize) -> f32 {
 /// white.
 #[derive(Debug, Clone)]
 pub struct PageLight {
-    cell: usize,
-    columns: usize,
-    rows: usize,
+    cells: Cells,
     /// `None` where the page is not mostly paper.
     gains: Option<[Vec<f32>; 3]>,
     /// Whether print is lighter than what is between it.
     is_dark: bool,
-}
-
-impl From<LightEstimator> for PageLight {
-    fn from(
-        LightEstimator {
-            cell,
-            columns,
-            rows,
-            ..
-        }: LightEstimator,
-    ) -> Self {
-        PageLight {
-            cell,
-            columns,
-            rows,
-            gains: None,
-            is_dark: false,
-        }
-    }
 }
 
 impl PageLight {
@@ -231,17 +224,22 @@ impl PageLight {
     /// centres.
     pub fn apply(&self, row: usize, rgba: &mut [u8]) {
         let Some(gains) = &self.gains else { return };
-        let (above, below, down) = neighbours(row, self.cell, self.rows);
-        let line: Vec<[f32; 3]> = (0..self.columns)
+        let Cells {
+            side,
+            columns,
+            rows,
+        } = self.cells;
+        let (above, below, down) = neighbours(row, side, rows);
+        let line: Vec<[f32; 3]> = (0..columns)
             .map(|col| {
                 gains.each_ref().map(|plane| {
-                    let upper = plane[above * self.columns + col];
-                    upper + down * (plane[below * self.columns + col] - upper)
+                    let upper = plane[above * columns + col];
+                    upper + down * (plane[below * columns + col] - upper)
                 })
             })
             .collect();
         for (x, pixel) in rgba.as_chunks_mut::<4>().0.iter_mut().enumerate() {
-            let (left, right, across) = neighbours(x, self.cell, self.columns);
+            let (left, right, across) = neighbours(x, side, columns);
             for k in 0..3 {
                 let gain = line[left][k] + across * (line[right][k] - line[left][k]);
                 // Casts saturate.

@@ -2,12 +2,9 @@
 
 use super::planes::RIM_PIXELS;
 use super::region::Region;
-use crate::math::planar::{cross, distance, orientation, polygon_area, polyline_length};
-use crate::page::text::ranking::ranked;
-
-/// Maximum number of convex hull vertices among which a page's four corners are searched; the cost is the third power
-/// of this.
-const MAX_HULL_VERTICES: usize = 64;
+use crate::math::planar::{
+    convex_hull, cross, distance, orientation, polygon_area, polyline_length,
+};
 
 /// The border of a region in a mask, divided by four corners, clockwise.
 pub(super) struct Quadrilateral {
@@ -15,50 +12,6 @@ pub(super) struct Quadrilateral {
     pub arcs: [Vec<[f64; 2]>; 4],
     /// Score of how much the region is like a page, from 0 to 1.
     pub likeness: f64,
-}
-
-/// Computes the convex hull of pixels by the monotone chain algorithm; returns indices of its vertices in order around
-/// the hull.
-fn convex_hull(points: &[[f64; 2]]) -> Vec<usize> {
-    // Coordinates of pixels are whole, so that one number orders them by column, then by row.
-    let order = ranked(
-        &points
-            .iter()
-            .map(|[x, y]| x * 65536.0 + y)
-            .collect::<Vec<_>>(),
-    );
-    let mut hull: Vec<usize> = Vec::new();
-    for pass in 0..2 {
-        let start = hull.len();
-        for k in 0..order.len() {
-            let i = order[if pass == 0 { k } else { order.len() - 1 - k }];
-            while hull.len() >= start + 2 {
-                let [a, b] = [hull[hull.len() - 2], hull[hull.len() - 1]];
-                if orientation(points[a], points[b], points[i]) > 0.0 {
-                    break;
-                }
-                hull.pop();
-            }
-            hull.push(i);
-        }
-        hull.pop();
-    }
-    hull
-}
-
-/// Simplifies a convex hull to at most 64 vertices, by repeatedly removing the vertex that changes the area least.
-fn simplify_hull(points: &[[f64; 2]], hull: &mut Vec<usize>) {
-    while hull.len() > MAX_HULL_VERTICES {
-        let n = hull.len();
-        let area = |k: usize| {
-            let at = |j: usize| points[hull[j % n]];
-            orientation(at(k + n - 1), at(k), at(k + 1)).abs()
-        };
-        let Some(least) = (0..n).min_by(|i, j| area(*i).total_cmp(&area(*j))) else {
-            return;
-        };
-        hull.remove(least);
-    }
 }
 
 /// Finds the four vertices of a convex polygon whose quadrilateral has the largest area; returns their indices. None if
@@ -125,13 +78,12 @@ impl Quadrilateral {
             .iter()
             .map(|pixel| pixel.map(f64::from))
             .collect();
-        let mut hull = convex_hull(&border);
-        let hull_area = polygon_area(&hull.iter().map(|i| border[*i]).collect::<Vec<_>>()).abs();
-        simplify_hull(&border, &mut hull);
-        let polygon: Vec<[f64; 2]> = hull.iter().map(|i| border[*i]).collect();
-        let found = largest_quadrilateral(&polygon)?.map(|k| hull[k]);
-        let order = ranked(&found.map(|i| i as f64));
-        let places = [0, 1, 2, 3].map(|k| found[order[k]]);
+        let hull = convex_hull(border.clone());
+        let hull_area = polygon_area(&hull).abs();
+        let corners = largest_quadrilateral(&hull)?.map(|k| hull[k]);
+        let mut places =
+            corners.map(|corner| border.iter().position(|at| *at == corner).unwrap_or(0));
+        places.sort_unstable();
         let n = border.len();
         let arcs = [0, 1, 2, 3].map(|k| {
             let (from, to) = (places[k], places[(k + 1) % 4]);

@@ -39,6 +39,7 @@
 //! [`PageSurface::in_photo`] takes. [`trace_edges`] finds them between corners that are given. Lenses are assumed to have
 //! no distortion.
 
+mod best_path;
 pub mod cleaning;
 mod corners;
 mod edges;

@@ -4,6 +4,7 @@ use super::corners::is_outside;
 use super::planes::{Planes, RIM_PIXELS};
 use super::smooth_curve::piecewise_smooth;
 use crate::math::planar::distance;
+use crate::page::best_path::best_path;
 
 /// Half the width of the band along a region's border in which the page's edge is searched, in pixels of the reduced
 /// photo.
@@ -33,6 +34,7 @@ const STEP_COST: f32 = 0.15;
 const WEAK_CONTRAST: f32 = 0.15;
 
 /// Minimum difference of logarithmic colour across an edge of a page that counts as visible: 4 % of the light.
+/// Its row: `benches/page.md`, One rule at a time.
 const MIN_EDGE_CONTRAST: f32 = 0.04;
 
 /// Difference of logarithmic colour across an edge of a page at which the edge's contrast has a score of one half.
@@ -161,38 +163,6 @@ fn edge_strengths(clean: &Band, raw: &Band, i: usize) -> [f32; PROFILE_LENGTH] {
     })
 }
 
-/// Finds the path along the border with the largest sum of edge strengths minus the cost of its sideways steps (Viterbi
-/// algorithm); returns its index in each profile.
-fn best_path(strengths: &[[f32; PROFILE_LENGTH]]) -> Vec<usize> {
-    let range = BAND_MARGIN..PROFILE_LENGTH - BAND_MARGIN;
-    let mut worth = [f32::MIN; PROFILE_LENGTH];
-    range.clone().for_each(|k| worth[k] = strengths[0][k]);
-    let mut from = vec![[0_u8; PROFILE_LENGTH]; strengths.len()];
-    for (i, own) in strengths.iter().enumerate().skip(1) {
-        let before = worth;
-        for k in range.clone() {
-            let mut best = (before[k], k);
-            for j in [k - 1, k + 1] {
-                let value = before[j] - STEP_COST;
-                if value > best.0 {
-                    best = (value, j);
-                }
-            }
-            worth[k] = best.0 + own[k];
-            from[i][k] = best.1 as u8;
-        }
-    }
-    let mut place = range
-        .max_by(|a, b| worth[*a].total_cmp(&worth[*b]))
-        .unwrap_or(PROFILE_MIDDLE);
-    let mut path = vec![place; strengths.len()];
-    for i in (1..strengths.len()).rev() {
-        place = usize::from(from[i][place]);
-        path[i - 1] = place;
-    }
-    path
-}
-
 impl EdgePath {
     /// Score of the contrast across the edge, from 0 to 1.
     pub fn contrast_score(&self) -> f64 {
@@ -221,11 +191,15 @@ impl EdgePath {
         let strengths: Vec<_> = (0..border.len())
             .map(|i| edge_strengths(&clean, &raw, i))
             .collect();
-        let path = best_path(&strengths);
+        let searched = BAND_MARGIN..PROFILE_LENGTH - BAND_MARGIN;
+        let path = best_path(
+            strengths.iter().map(|own| &own[searched.clone()]),
+            STEP_COST,
+        );
         let mut contrasts = Vec::new();
         let points: Vec<[f64; 2]> = (0..border.len())
             .map(|i| {
-                let k = path[i];
+                let k = BAND_MARGIN + path[i];
                 let [a, b, c] = [k - 1, k, k + 1].map(|k| f64::from(strengths[i][k]));
                 let bend = 2.0 * b - a - c;
                 let shift = if bend > 1e-6 {

@@ -9,6 +9,7 @@ use super::planes::Planes;
 use super::print::Print;
 use super::quadrilateral::rectangularity;
 use crate::math::planar::polygon_area;
+use crate::page::best_path::best_path;
 
 /// Number of directions among which that of the lines of print is searched, over half a turn.
 const PRINT_DIRECTIONS: usize = 90;
@@ -100,40 +101,11 @@ struct Side {
 }
 
 impl Side {
-    /// Finds the path with the largest worth (Viterbi algorithm), by its place in each row.
-    fn best_path(&self, worth: &[f32]) -> Vec<usize> {
-        let reach = self.reach;
-        let mut total = vec![0.0_f32; reach];
-        let mut from = vec![0_u32; self.rows * reach];
-        for (t, own) in worth.chunks_exact(reach).enumerate() {
-            let before = total.clone();
-            for r in 0..reach {
-                let mut best = (before[r], r);
-                for j in [r.saturating_sub(1), (r + 1).min(reach - 1)] {
-                    if before[j] - STEP_COST > best.0 {
-                        best = (before[j] - STEP_COST, j);
-                    }
-                }
-                total[r] = best.0 + own[r];
-                from[t * reach + r] = best.1 as u32;
-            }
-        }
-        let mut r = (0..reach)
-            .max_by(|a, b| total[*a].total_cmp(&total[*b]))
-            .unwrap_or(0);
-        let mut path = vec![r; self.rows];
-        for t in (1..self.rows).rev() {
-            r = from[t * reach + r] as usize;
-            path[t - 1] = r;
-        }
-        path
-    }
-
     /// Finds the best paths that keep apart from each other.
     fn best_paths(&self) -> [Vec<usize>; PATHS_PER_SIDE] {
         let mut worth = self.worth.clone();
         std::array::from_fn(|_| {
-            let path = self.best_path(&worth);
+            let path = best_path(worth.chunks_exact(self.reach), STEP_COST);
             for (row, r) in worth.chunks_exact_mut(self.reach).zip(&path) {
                 let near =
                     r.saturating_sub(AVERAGING_RADIUS)..(r + AVERAGING_RADIUS + 1).min(row.len());

@@ -9,10 +9,12 @@ use crate::page::robust_fit;
 const REWEIGHTING_ROUNDS: usize = 6;
 
 /// Distance of a point from the curve, in pixels, above which the point is an outlier and counts less.
+/// Its row: `benches/page.md`, One rule at a time.
 const OUTLIER_DISTANCE: f64 = 1.0;
 
 /// Change of the curve's direction from point to point, in radians for points one pixel apart, above which it counts as a
 /// fold, which is penalised by its angle and not by its square.
+/// Its row: `benches/page.md`, One rule at a time.
 const FOLD_ANGLE: f64 = 0.004;
 
 /// Fits a piecewise smooth curve to points about one pixel apart, and returns its points. Bends shorter than about `length`

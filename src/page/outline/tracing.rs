@@ -25,9 +25,11 @@ pub(super) const MIN_VISIBLE_SHARE: f64 = 0.5;
 const MIN_VISIBLE_EDGES: usize = 3;
 
 /// Distance of a corner outside of the photo that is not reported, as a share of the photo's longer side.
+/// Its row: `benches/page.md`, One rule at a time.
 const MAX_OUTSIDE_SHARE: f64 = 0.01;
 
 /// Spacing of the points of a traced edge, in pixels of the reduced photo.
+/// Its row: `benches/page.md`, One rule at a time.
 const POINT_DISTANCE: usize = 3;
 
 /// The reduced photo as it is (`raw`), and with print suppressed (`clean`).

@@ -8,6 +8,7 @@ use std::ops::Range;
 use super::place_table::PlaceTable;
 use super::problem::LevelLine;
 use super::view::PhotoView;
+use crate::page::best_path::best_path;
 use crate::page::outline::vertical_extreme;
 use crate::page::text::GreyPhoto;
 
@@ -15,12 +16,13 @@ use crate::page::text::GreyPhoto;
 const STRIP_COUNT: usize = 40;
 
 /// Number of columns of each strip at which the brightness is sampled.
+/// Its row: `benches/page.md`, One rule at a time.
 const SAMPLES_PER_STRIP: usize = 6;
 
 /// Number of rows of the page at which the brightness is sampled.
 const PROFILE_ROWS: usize = 480;
 
-/// Width of the margin at the upper and lower edge without folds, in rows: edges are traced with errors.
+/// Width of the margin at the upper and lower edge, and around each fold, without folds, in rows: edges are traced with errors.
 /// Its row: `benches/page.md`, Models.
 const FOLD_FREE_MARGIN_ROWS: usize = 29;
 
@@ -41,6 +43,7 @@ const VISIBLE_STEP_RATIO: f32 = 6.0;
 const MIN_STEP_NOISE: f32 = 0.004;
 
 /// Cost of a change by one row from strip to strip, where a fully visible fold earns 1 in each strip.
+/// Its row: `benches/page.md`, One rule at a time.
 const ROW_CHANGE_COST: f32 = 0.04;
 
 /// Minimum mean visibility of a fold, from 0 to 1.
@@ -54,9 +57,6 @@ const MIN_OUTER_VISIBILITY: f32 = 0.7;
 /// Number of strips at the left and at the right edge in which a fold is visible and print is not.
 /// Chosen by `benches/page.md`, Folds.
 const OUTER_STRIP_COUNT: usize = 3;
-
-/// Minimum distance of two folds, in rows.
-const MIN_FOLD_DISTANCE_ROWS: usize = 20;
 
 /// Standard deviation of a fold that halves the page from its middle, as a share of the page's height, if the fit of the
 /// sheet has a cost of 1; it is divided by the square root of the cost (`benches/page.md`, Folds). A fold within three of these
@@ -113,11 +113,11 @@ fn strips(brightness: impl Fn([f64; 2]) -> f32) -> Vec<Vec<f32>> {
 fn visible_paths(mut strips: Vec<Vec<f32>>) -> Vec<FoldPath> {
     let mut folds = Vec::new();
     loop {
-        let path = most_visible_path(&strips);
+        let path = best_path(strips.iter().map(Vec::as_slice), ROW_CHANGE_COST);
         let mut visible = [0.0; STRIP_COUNT];
         for ((row, strip), visible) in path.iter().zip(&mut strips).zip(&mut visible) {
             *visible = strip[*row];
-            strip[near(*row, MIN_FOLD_DISTANCE_ROWS)].fill(0.0);
+            strip[near(*row, FOLD_FREE_MARGIN_ROWS)].fill(0.0);
         }
         let outer = [
             &visible[..OUTER_STRIP_COUNT],
@@ -201,38 +201,6 @@ fn visibility(brightness: impl Fn(usize, usize) -> f32) -> Vec<f32> {
         found[row] = (steps[row] / visible).min(1.0);
     }
     found
-}
-
-/// Finds the most visible path across all strips by dynamic programming.
-fn most_visible_path(strips: &[Vec<f32>]) -> FoldPath {
-    let highest = |rows: Range<usize>, value: &dyn Fn(usize) -> f32| {
-        let first = rows.start;
-        rows.fold(
-            first,
-            |best, row| if value(row) > value(best) { row } else { best },
-        )
-    };
-    let mut sums = strips[0].clone();
-    let mut sources: Vec<FoldPath> = Vec::new();
-    for strip in &strips[1..] {
-        let before = sums;
-        let reached = |from: usize, row: usize| {
-            before[from] - if from == row { 0.0 } else { ROW_CHANGE_COST }
-        };
-        let source: FoldPath = (0..PROFILE_ROWS)
-            .map(|row| highest(near(row, 1), &|from| reached(from, row)))
-            .collect();
-        sums = (0..PROFILE_ROWS)
-            .map(|row| reached(source[row], row) + strip[row])
-            .collect();
-        sources.push(source);
-    }
-    let mut path = vec![highest(0..PROFILE_ROWS, &|row| sums[row])];
-    for source in sources.iter().rev() {
-        path.push(source[path[path.len() - 1]]);
-    }
-    path.reverse();
-    path
 }
 
 /// Mean of some values.

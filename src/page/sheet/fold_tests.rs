@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::camera::SheetCamera;
 use super::fit::FittedSheet;
-use super::grid::SheetGrid;
+use super::grid::{SheetGrid, node_shares};
 use super::plane::CameraPrior;
 use super::polyline::Polyline;
 use super::problem::{LevelLine, ResidualRow, SheetProblem, SheetWeights};
@@ -18,12 +18,8 @@ const GRID_SIZE: [usize; 2] = [9, 13];
 /// of the page) to space.
 fn sheet(shape: impl Fn([f64; 2]) -> Vector3<f64>) -> SheetGrid {
     let [cols, rows] = GRID_SIZE;
-    let nodes = (0..cols * rows)
-        .map(|i| {
-            let x = (i % cols) as f64 / (cols - 1) as f64 - 0.5;
-            let y = PAGE_RATIO * ((i / cols) as f64 / (rows - 1) as f64 - 0.5);
-            shape([x, y]) + Vector3::new(0.0, 0.0, 3.0)
-        })
+    let nodes = node_shares(GRID_SIZE)
+        .map(|[x, y]| shape([x - 0.5, PAGE_RATIO * (y - 0.5)]) + Vector3::new(0.0, 0.0, 3.0))
         .collect();
     SheetGrid {
         cols,

@@ -26,6 +26,24 @@ pub(super) struct GridPlace {
     pub derivative_down: [f64; 4],
 }
 
+/// Number of the cell of a row of `nodes` nodes that a share of its length lies in, and the share of the cell before it.
+#[inline]
+pub(super) fn cell_at(share: f64, nodes: usize) -> (usize, f64) {
+    let at = share * (nodes - 1) as f64;
+    let cell = (at.max(0.0) as usize).min(nodes - 2);
+    (cell, at - cell as f64)
+}
+
+/// Places of the nodes of a grid of `cols` by `rows` nodes, row by row, in shares of its width and height.
+pub(super) fn node_shares([cols, rows]: [usize; 2]) -> impl Iterator<Item = [f64; 2]> {
+    (0..cols * rows).map(move |i| {
+        [
+            (i % cols) as f64 / (cols - 1) as f64,
+            (i / cols) as f64 / (rows - 1) as f64,
+        ]
+    })
+}
+
 impl SheetGrid {
     /// Ratio of the flat page's height to its width.
     pub fn ratio(&self) -> f64 {
@@ -42,12 +60,7 @@ impl SheetGrid {
 
     /// Computes the bilinear interpolation weights of a place, given in shares of the page's width and height.
     pub fn place(&self, share: [f64; 2]) -> GridPlace {
-        let sides = [self.cols, self.rows];
-        let [(i, s), (j, t)] = [0, 1].map(|k| {
-            let at = share[k] * (sides[k] - 1) as f64;
-            let low = (at.max(0.0) as usize).min(sides[k] - 2);
-            (low, at - low as f64)
-        });
+        let ((i, s), (j, t)) = (cell_at(share[0], self.cols), cell_at(share[1], self.rows));
         let first = j * self.cols + i;
         let down = (self.rows - 1) as f64;
         GridPlace {
@@ -72,12 +85,8 @@ impl SheetGrid {
     /// Interpolates the sheet's position in space by a Catmull-Rom surface through the nodes, at shares of the page's
     /// width and height. Beyond the border the nodes are continued by reflection.
     pub fn smooth_at(&self, share: [f64; 2]) -> Vector3<f64> {
-        let sides = [self.cols, self.rows];
-        let [(i, s), (j, t)] = [0, 1].map(|k| {
-            let at = share[k] * (sides[k] - 1) as f64;
-            let low = (at.max(0.0) as usize).min(sides[k] - 2);
-            (low as isize, at - low as f64)
-        });
+        let ((i, s), (j, t)) = (cell_at(share[0], self.cols), cell_at(share[1], self.rows));
+        let (i, j) = (i as isize, j as isize);
         let row = |j: isize| -> Vector3<f64> {
             let node = |i: isize| self.nodes[j as usize * self.cols + i as usize];
             let taken = |i: isize| extended(i, self.cols, node);
@@ -88,14 +97,8 @@ impl SheetGrid {
 
     /// Resamples the sheet to a grid of other numbers of columns and rows.
     pub fn resampled(&self, [cols, rows]: [usize; 2]) -> Self {
-        let nodes = (0..cols * rows)
-            .map(|i| {
-                let share = [
-                    (i % cols) as f64 / (cols - 1) as f64,
-                    (i / cols) as f64 / (rows - 1) as f64,
-                ];
-                self.smooth_at(share)
-            })
+        let nodes = node_shares([cols, rows])
+            .map(|share| self.smooth_at(share))
             .collect();
         SheetGrid {
             cols,

@@ -4,9 +4,10 @@ use super::place_table::PlaceTable;
 use super::problem::LevelLine;
 use super::view::PhotoView;
 use crate::page::places::back_project;
-use crate::page::text::{GreyPhoto, PageView, find_on_view};
+use crate::page::text::{GreyPhoto, find_baselines};
 
 /// Maximum number of points of one detected line that are used.
+/// Its row: `benches/page.md`, One rule at a time.
 const MAX_LINE_POINTS: usize = 16;
 
 /// Detects the lines across the page in the photo as flattened by a sheet. `table` gives the photo's places of the flat
@@ -16,7 +17,7 @@ pub(super) fn find_level_lines(
     view: &PhotoView,
     photo: &GreyPhoto,
 ) -> Vec<LevelLine> {
-    let found = find_on_view(&PageView::new(|share| table.at(share)), photo);
+    let found = find_baselines(table.seen_size(), |share| photo.at(table.at(share)));
     let seen = |share: &[f64; 2]| (*share, view.to_normalised(table.at(*share)));
     (found.iter())
         .filter_map(|line| level_line(line.iter().map(seen).collect()))

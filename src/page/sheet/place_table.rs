@@ -1,8 +1,9 @@
 //! Table of the places in the photo that belong to a fine grid over a flat page.
 
-use super::grid::SheetGrid;
+use super::grid::{SheetGrid, cell_at, node_shares};
 use super::view::PhotoView;
 use crate::error::{Error, Result};
+use crate::math::planar::polyline_length;
 
 /// Number of table cells along each side of a cell of the sheet's grid: bilinear interpolation is exact to a hundredth
 /// of a pixel then.
@@ -23,12 +24,8 @@ impl PlaceTable {
     /// [`Error::Empty`] for a sheet that is not in front of the camera.
     pub fn new(grid: &SheetGrid, view: &PhotoView) -> Result<Self> {
         let [cols, rows] = [grid.cols, grid.rows].map(|n| (n - 1) * CELLS_PER_GRID_CELL + 1);
-        let places: Option<Vec<_>> = (0..cols * rows)
-            .map(|i| {
-                let share = [
-                    (i % cols) as f64 / (cols - 1) as f64,
-                    (i / cols) as f64 / (rows - 1) as f64,
-                ];
+        let places: Option<Vec<_>> = node_shares([cols, rows])
+            .map(|share| {
                 let seen = grid.camera.project(grid.smooth_at(share))?;
                 Some(view.to_pixels(seen))
             })
@@ -45,15 +42,22 @@ impl PlaceTable {
         self
     }
 
+    /// Width and height of the page in the photo, in pixels, along the lines through its middle.
+    pub fn seen_size(&self) -> [f64; 2] {
+        let length = |count: usize, share: fn(f64) -> [f64; 2]| {
+            let places = (0..count).map(|i| self.at(share(i as f64 / (count - 1) as f64)));
+            polyline_length(&places.collect::<Vec<_>>())
+        };
+        [
+            length(self.cols, |along| [along, 0.5]),
+            length(self.rows, |along| [0.5, along]),
+        ]
+    }
+
     /// Interpolates the place in the photo, in pixels, at shares of the page's width and height.
     #[inline]
     pub fn at(&self, share: [f64; 2]) -> [f64; 2] {
-        let sides = [self.cols, self.rows];
-        let [(i, s), (j, t)] = [0, 1].map(|k| {
-            let at = share[k] * (sides[k] - 1) as f64;
-            let low = (at.max(0.0) as usize).min(sides[k] - 2);
-            (low, at - low as f64)
-        });
+        let ((i, s), (j, t)) = (cell_at(share[0], self.cols), cell_at(share[1], self.rows));
         let node = |i: usize, j: usize| self.places[j * self.cols + i];
         let [a, b, c, d] = [
             node(i, j),

@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector, Vector3};
 
 use super::camera::SheetCamera;
-use super::grid::SheetGrid;
+use super::grid::{SheetGrid, node_shares};
 use crate::math::planar::{cross, difference};
 
 /// Prior knowledge about the camera and the ratio of a page's sides.
@@ -150,14 +150,8 @@ impl Homography {
         };
         let rows = grid_rows(cols, log_ratio.exp());
         let unit = (point([1.0, 0.0]) - point([0.0, 0.0])).norm();
-        let nodes: Vec<_> = (0..cols * rows)
-            .map(|i| {
-                let share = [
-                    (i % cols) as f64 / (cols - 1) as f64,
-                    (i / cols) as f64 / (rows - 1) as f64,
-                ];
-                point(share) / unit
-            })
+        let nodes: Vec<_> = node_shares([cols, rows])
+            .map(|share| point(share) / unit)
             .collect();
         let visible = (nodes.iter()).all(|node| camera.project(*node).is_some());
         visible.then_some(SheetGrid {

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::grid::SheetGrid;
+use super::grid::{SheetGrid, node_shares};
 use super::plane::{CameraPrior, Homography, UNKNOWN_RATIO_DEVIATION, grid_rows};
 use super::polyline::Polyline;
 
@@ -50,14 +50,12 @@ impl Homography {
         });
         let [one, other] = &curves;
         let unit = 0.5 * (one.1 + other.1) / length;
-        let nodes: Vec<_> = (0..cols * rows)
-            .map(|i| {
-                let across = (i % cols, (i % cols) as f64 / (cols - 1) as f64);
-                let down = (i / cols, (i / cols) as f64 / (rows - 1) as f64);
+        let nodes: Vec<_> = (node_shares([cols, rows]).enumerate())
+            .map(|(i, [across, down])| {
                 let (along, share) = if sideways {
-                    (down.0, across.1)
+                    (i / cols, across)
                 } else {
-                    (across.0, down.1)
+                    (i % cols, down)
                 };
                 one.0[along].lerp(&other.0[along], share) / unit
             })
@@ -153,11 +151,7 @@ mod tests {
             };
             let sheet = homography.ruled_sheet(9, &edges, sideways, &prior, apparent);
             let sheet = sheet.unwrap();
-            for (i, node) in sheet.nodes.iter().enumerate() {
-                let share = [
-                    (i % sheet.cols) as f64 / (sheet.cols - 1) as f64,
-                    (i / sheet.cols) as f64 / (sheet.rows - 1) as f64,
-                ];
+            for (node, share) in (sheet.nodes.iter()).zip(node_shares([sheet.cols, sheet.rows])) {
                 let expected = page(share, sideways);
                 assert!((node - expected).norm() < 0.01, "{node} {expected}");
             }

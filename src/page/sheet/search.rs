@@ -13,7 +13,7 @@ use super::view::PhotoView;
 use crate::dewarp::Photo;
 use crate::math::planar::{distance, line_intersection};
 use crate::page::report::PageModel;
-use crate::page::text::{GreyPhoto, PageView};
+use crate::page::text::{GreyPhoto, ink_block};
 use crate::page::traced_line::BentEdges;
 use crate::progress;
 
@@ -196,7 +196,7 @@ pub(super) fn find_sheet(
     let coarse = problem.with_lowest_cost(coarse, &starts[1..]);
     progress::reach(0.1);
     let table = PlaceTable::new(&coarse.grid, view).ok()?;
-    let photo = photo.and_then(|photo| PageView::new(|share| table.at(share)).reduce(photo));
+    let photo = photo.map(|photo| GreyPhoto::new(photo, ink_block(table.seen_size()[0])));
     let print = PagePrint {
         traced: &traces.lines,
         photo: photo.as_ref(),

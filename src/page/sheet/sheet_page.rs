@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::grid::SheetGrid;
+use super::grid::{SheetGrid, node_shares};
 use super::place_table::PlaceTable;
 use super::plane::CameraPrior;
 use super::polyline::Polyline;
@@ -204,14 +204,8 @@ impl SheetPage {
         let positions = (self.grid.nodes.iter())
             .map(|node| [node.x, -node.y, -node.z].map(|v| v * width))
             .collect();
-        let uvs = (0..cols * rows)
-            .map(|i| {
-                let share = [
-                    (i % cols) as f64 / (cols - 1) as f64,
-                    (i / cols) as f64 / (rows - 1) as f64,
-                ];
-                texture_coordinates(self.table.at(share), photo)
-            })
+        let uvs = node_shares([cols, rows])
+            .map(|share| texture_coordinates(self.table.at(share), photo))
             .collect();
         (positions, uvs, cols)
     }

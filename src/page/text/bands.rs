@@ -22,9 +22,11 @@ pub(super) type Band = Vec<(usize, f64)>;
 const STRIPS_ACROSS: usize = 48;
 
 /// Minimum width of a vertical strip, in pixels of the ink image.
+/// Its row: `benches/page.md`, One rule at a time.
 const MIN_STRIP_PIXELS: usize = 6;
 
 /// Minimum number of vertical strips that a band of ink has to cross to be a line of text.
+/// Its row: `benches/page.md`, One rule at a time.
 pub(super) const MIN_BAND_STRIPS: usize = 8;
 
 /// Maximum number of consecutive vertical strips in which a band of ink may be interrupted.
@@ -33,6 +35,7 @@ const MAX_MISSING_STRIPS: usize = 2;
 
 /// Minimum contrast of a band of ink: negative second derivative of the darkness across it, times the square of half
 /// the searched x-height.
+/// Its row: `benches/page.md`, One rule at a time.
 const MIN_BAND_CONTRAST: f32 = 0.03;
 
 /// Maximum distance between a band of ink in the next vertical strip and its extrapolation there, as a multiple of half

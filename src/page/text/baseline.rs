@@ -22,6 +22,7 @@ const MIN_INLIER_SHARE: f64 = 0.6;
 /// Maximum scatter of the lower edges of a band of ink about its fitted baseline, in pixels of the ink image;
 /// [`MAX_SCATTER_SCALES`] adds a share of the letters' height. Letters of print stand on a line; handwriting and
 /// pictures do not.
+/// Its row: `benches/page.md`, One rule at a time.
 const MAX_SCATTER_PIXELS: f64 = 0.3;
 
 /// Addition to the maximum scatter of lower edges about a baseline, as a share of half the x-height.

@@ -2,19 +2,19 @@
 
 use super::bands::StripProfiles;
 use super::baseline::Baseline;
-use super::grey_photo::GreyPhoto;
-use super::ink::{InkImage, PageView};
+use super::ink::InkImage;
 use super::ranking::ranked;
 
 /// Half x-heights of the letters for which lines of text are searched, in pixels of the ink image.
 const X_HEIGHT_SCALES: [f64; 6] = [1.5, 2.2, 3.2, 4.7, 6.8, 10.0];
 
-/// Approximate maximum number of lines of text of one page that are used: more cost time and add nothing.
-const MAX_LINES_PER_PAGE: usize = 40;
-
-/// Finds the baselines on one flat page, as points in shares of its width and height.
-pub(in crate::page) fn find_on_view(view: &PageView<'_>, photo: &GreyPhoto) -> Vec<Vec<[f64; 2]>> {
-    let ink = InkImage::new(view, photo);
+/// Finds the baselines on one flat page that is seen with `size` (width and height, in pixels), as points in shares of its
+/// width and height. `brightness` gives the photo's at such shares.
+pub(in crate::page) fn find_baselines(
+    size: [f64; 2],
+    brightness: impl Fn([f64; 2]) -> f32,
+) -> Vec<Vec<[f64; 2]>> {
+    let ink = InkImage::new(size, brightness);
     let strips = StripProfiles::new(&ink);
     let mut by_scale: Vec<Vec<Baseline>> = X_HEIGHT_SCALES
         .iter()
@@ -35,9 +35,8 @@ pub(in crate::page) fn find_on_view(view: &PageView<'_>, photo: &GreyPhoto) -> V
         }
     }
     let levels: Vec<f64> = chosen.iter().map(|line| line.level).collect();
-    let step = chosen.len().div_ceil(MAX_LINES_PER_PAGE).max(1);
     let [width, height] = [ink.width, ink.height].map(|n| n as f64);
-    (ranked(&levels).into_iter().step_by(step))
+    (ranked(&levels).into_iter())
         .map(|k| {
             (chosen[k].points.iter())
                 // Rows are counted at their middles.

@@ -55,7 +55,7 @@ const IMAGE_FORMATS: [(Format, &str, &str, &[&[u8]]); 14] = [
     (Format::Npy, "npy", "NPY", &[b"\x93NUMPY"]),
     (Format::Tiff, "tiff", "TIFF", &[b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"]),
     (Format::Exr, "exr", "EXR", &[b"\x76\x2f\x31\x01"]),
-    (Format::Pfm, "pfm", "PFM", &[b"Pf\n", b"PF\n"]),
+    (Format::Pfm, "pfm", "PFM", &[b"Pf\n", b"PF\n", b"Pf\r", b"PF\r", b"Pf ", b"PF "]),
     (Format::Npz, "npz", "NPZ", &[]),
     (Format::Jpeg, "jpeg", "JPEG", &[b"\xff\xd8\xff"]),
     (Format::WebP, "webp", "WebP", &[b"RIFF????WEBP"]),
@@ -65,7 +65,7 @@ const IMAGE_FORMATS: [(Format, &str, &str, &[&[u8]]); 14] = [
     // The size of the file, four bytes for the program that wrote it, where the pixels begin, and the size of the header
     // that follows, which is below 256.
     (Format::Bmp, "bmp", "BMP", &[b"BM?????????????\0\0\0"]),
-    (Format::Pgm, "pgm", "PGM", &[b"P2\n", b"P2 ", b"P5\n", b"P5 "]),
+    (Format::Pgm, "pgm", "PGM", &[b"P2\n", b"P2 ", b"P2\r", b"P5\n", b"P5 ", b"P5\r", b"P5\t"]),
     (Format::Hgt, "hgt", "SRTM heights", &[]),
 ];
 

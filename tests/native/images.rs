@@ -166,8 +166,11 @@ fn pfms_of_either_byte_order() {
         assert_eq!(check(name, "f32", &holes()).format, Format::Pfm);
     }
     refused("colour.pfm", "UNSUPPORTED", "row 0, column 0");
-    let scaled = decode(b"Pf\n1 2\n-2.5\n\0\0\x80\x3f\0\0\0\x40", None).unwrap();
-    assert_eq!((scaled.height_scale, scaled.values), (2.5, vec![2.0, 1.0]));
+    for head in ["Pf\n1 2\n-2.5\n", "Pf\r\n1 2\r\n-2.5\r\n", "Pf 1 2 -2.5 "] {
+        let file = [head.as_bytes(), b"\0\0\x80\x3f\0\0\0\x40"].concat();
+        let scaled = decode(&file, None).unwrap();
+        assert_eq!((scaled.height_scale, scaled.values), (2.5, vec![2.0, 1.0]));
+    }
 }
 
 #[test]
@@ -241,6 +244,12 @@ fn pgms_of_bytes_and_text() {
         found
     );
     assert_eq!(read(b"P2 2 2 255 1 2\n3 255").unwrap(), found);
+    for file in [
+        &b"P5\r\n2 2\r\n255\r\n\x01\x02\x03\xff"[..],
+        b"P5\t2 2\t255\t\x01\x02\x03\xff",
+    ] {
+        assert_eq!(read(file).unwrap(), found);
+    }
     let deep = read(b"P5 2 1 65535\n\x01\x02\x03\x04").unwrap();
     assert_eq!(deep, (Format::Pgm, "u16", vec![258.0, 772.0]));
     for damaged in [

@@ -29,8 +29,8 @@ const MIN_REPETITIONS: usize = 2;
 
 /// Replaces values that nobody would measure by NaN, and returns what was assumed of them.
 ///
-/// Infinities are no data. So is, unless the file names its own value of no data (`is_named`), the smallest or the largest value if it is a number by which programs mark missing
-/// values ([`is_marker`]), repeats exactly, and lies farther from all other values than these, of which there are several, lie
+/// Infinities are no data. So is the smallest or the largest value if it is a number by which programs mark missing
+/// values ([`is_marker`]; where the file names its own value, `is_named`, one that nobody would measure), repeats exactly, and lies farther from all other values than these, of which there are several, lie
 /// from each other.
 pub(super) fn assume_no_data(values: &mut [f64], is_named: bool) -> Vec<Assumption> {
     let mut assumptions = Vec::new();
@@ -47,7 +47,8 @@ pub(super) fn assume_no_data(values: &mut [f64], is_named: bool) -> Vec<Assumpti
         }
     };
     remove(values, "infinity".into(), &f64::is_infinite);
-    while let Some(marker) = marker_of(values).filter(|_| !is_named) {
+    let is_told = |marker: &f64| !is_named || is_never_measured(*marker);
+    while let Some(marker) = marker_of(values).filter(is_told) {
         // Nobody reads the 39 digits of the largest number of 32 bits.
         let name = match marker.abs() >= MIN_IMPOSSIBLE_MAGNITUDE {
             true => format!("{:e}", rounded(marker, 3)),
@@ -222,9 +223,11 @@ mod tests {
         }
         let bathymetry = (0..2000).map(|i| -11_000.0 + 9.0 * f64::from(i));
         assert_eq!(told(bathymetry.chain([-9999.0; 4]).collect()), [""; 0]);
-        // A file that names its value of no data has no other: a plateau at the highest level of a picture whose level 0 is none.
-        let mut levels = [1.0, 900.0, 65535.0, 65535.0, f64::NAN];
-        assert!(assume_no_data(&mut levels, true).is_empty());
-        assert_eq!(levels[2], 65535.0);
+        // Beside a named value a plateau at the highest level was measured.
+        for (marker, is_told) in [(65535.0, false), (-9999.0, true)] {
+            let mut levels = [1.0, 900.0, marker, marker, f64::NAN];
+            assert_eq!(assume_no_data(&mut levels, true).is_empty(), !is_told);
+            assert_eq!(levels[2].is_nan(), is_told);
+        }
     }
 }

@@ -47,23 +47,16 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<()> {
         (parts.assumptions).push(Assumption::new("trailingBytes", words, None));
     }
     let triangles = triangles.as_chunks::<STL_TRIANGLE_BYTES>().0;
-    let attributes =
-        (triangles.iter()).map(|triangle| u16::from_le_bytes([triangle[48], triangle[49]]));
+    let attribute = |triangle: &[u8; STL_TRIANGLE_BYTES]| [triangle[48], triangle[49]];
+    let attributes = triangles.iter().map(attribute).map(u16::from_le_bytes);
+    let attributes: Vec<u16> = attributes.collect();
     // A program that knows no colours leaves the header as it was, and writes 0 for all attributes.
-    let base = base_colour(&bytes[..STL_HEADER_BYTES])
-        .filter(|_| attributes.clone().any(|attribute| attribute != 0));
+    let base =
+        base_colour(&bytes[..STL_HEADER_BYTES]).filter(|_| attributes.iter().any(|a| *a != 0));
     // MeshLab marks all triangles with colours of their own, too.
-    let is_marked = attributes
-        .clone()
-        .all(|attribute| attribute & COLOUR_BIT != 0);
-    let are_alike = attributes
-        .clone()
-        .all(|attribute| Some(attribute) == attributes.clone().next());
-    let ignored = if base.is_some() && is_marked && !are_alike {
-        COLOUR_BIT
-    } else {
-        0
-    };
+    let is_marked = attributes.iter().all(|a| a & COLOUR_BIT != 0);
+    let is_plain = base.is_none() || attributes.iter().all(|a| *a == attributes[0]);
+    let ignored = COLOUR_BIT * u16::from(is_marked && !is_plain);
     for (triangle, attribute) in triangles.iter().zip(attributes) {
         let start = parts.positions.len() as u32;
         // Three numbers each: a normal, and the corners.

@@ -65,7 +65,7 @@ pub(super) fn decode_pgm(bytes: &[u8]) -> Result<StoredImage> {
 struct Header<'a>(&'a [u8]);
 
 impl Header<'_> {
-    /// Reads the next number, which is good; one byte of white space ends it, as what follows may look like more of it.
+    /// Reads the next number, which is good; one byte of white space or a line's end ends it, as what follows may look like more.
     fn number<T: std::str::FromStr>(
         &mut self,
         what: &str,
@@ -80,7 +80,8 @@ impl Header<'_> {
             .position(u8::is_ascii_whitespace)
             .or(Some(start.len()).filter(|length| (1..=MAX_NUMBER_BYTES).contains(length)))
             .ok_or_else(|| damaged("its header is cut short"))?;
-        self.0 = &start[(length + 1).min(start.len())..];
+        let end = 1 + usize::from(start[length..].starts_with(b"\r\n"));
+        self.0 = &start[(length + end).min(start.len())..];
         let word = String::from_utf8_lossy(&start[..length]);
         let number = word.parse().ok().filter(is_good);
         number.ok_or_else(|| damaged(format!("its {what} is `{word}`")))

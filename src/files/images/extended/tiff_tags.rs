@@ -138,7 +138,8 @@ pub(super) fn read(
     let no_data = no_data(file)?;
     let inverted = unsigned(file, Tag::PhotometricInterpretation)? == Some(0);
     let is_unsigned = number_type.name().starts_with('u');
-    if inverted && (no_data.is_some() || !is_unsigned) {
+    let is_on_map = georeference.as_ref().is_some_and(Georeference::has_system);
+    if inverted && (no_data.is_some() || !is_unsigned || is_on_map) {
         return Err(not_read(
             "heights that count from white (WhiteIsZero); write them as BlackIsZero",
         ));

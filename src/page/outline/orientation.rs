@@ -10,6 +10,7 @@ const SAMPLES_ALONG_LONGER_SIDE: usize = 320;
 const STRIP_SAMPLES: usize = 32;
 
 /// Minimum ratio of the contrast energies across and along the lines for the print to have a direction.
+/// Its row: `benches/page.md`, One rule at a time.
 const MIN_ENERGY_RATIO: f64 = 1.6;
 
 /// Minimum mean darkness of the print, in logarithmic colour, for a page to have an orientation.

@@ -36,6 +36,7 @@ const SMOOTHING_DEVIATION_ROWS: f64 = 1.7;
 const KERNEL_ROWS: usize = (SMOOTHING_DEVIATION_ROWS * 3.0) as usize + 1;
 
 /// Step of brightness at which a fold is fully visible, as a multiple of the strip's median one.
+/// Its row: `benches/page.md`, One rule at a time.
 const VISIBLE_STEP_RATIO: f32 = 6.0;
 
 /// Addition to a strip's median step of logarithmic brightness: noise of evenly bright paper.

@@ -159,12 +159,12 @@ impl Multilevel {
                 Some(radius) => {
                     let creases = self.level.reweight_creases(radius)?;
                     let loaded = self.load_border()?;
-                    if !creases.is_worth() && !loaded {
+                    if !creases.changed && !loaded {
                         break;
                     }
                     let next = self.level.begin_pass_at_creases(loaded)?;
                     // A pass for the border's load alone is not counted as a crease pass.
-                    if creases.is_worth() {
+                    if creases.changed {
                         self.creases = creases;
                         self.passes += 1;
                     }

@@ -21,14 +21,15 @@ pub(crate) enum InitialGuess {
     Earlier,
 }
 
-/// Residual at which a pass of conjugate gradients for the thin plate ends, relative to the pass's first residual.
+/// Residual at which a pass of conjugate gradients for the thin plate ends, relative to the pass's first residual
+/// (`benches/choices.md`, One constant at a time).
 const PASS_RESIDUAL: f64 = 1e-10;
 
 /// Residual at which the pass from an earlier thin plate ends, relative to that of the best-fit plane.
 const PLANE_RESIDUAL: f64 = 1e-7;
 
 /// Number of passes for the thin plate. In each the tie-break weight pulls free vertices towards the plate of the pass
-/// before: after this many it has no influence.
+/// before: after this many it has no influence (`benches/choices.md`, One constant at a time).
 const TIE_BREAK_PASSES: usize = 3;
 
 /// Maximum number of conjugate-gradient iterations in a pass for the thin plate.

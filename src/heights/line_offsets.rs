@@ -10,21 +10,15 @@ use super::heightfield::HeightImage;
 use crate::error::Result;
 use crate::math::statistics::median;
 
-/// Minimum logarithm of the likelihood ratio of two halves with common offsets to independent ones.
+/// Minimum logarithm of the likelihood ratio of two halves with common offsets to independent ones
+/// (`benches/scenes.md`, One constant at a time).
 const MIN_LOG_LIKELIHOOD_RATIO: f64 = 8.0;
-
-/// Maximum autocorrelation of the differences of neighbouring rows: offsets that are independent from row to row have
-/// −2/3, a shape that bends has about 1.
-const MAX_ROW_AUTOCORRELATION: f64 = -0.3;
-
-/// Minimum number of differences in each half of a row.
-const MIN_HALF_ROW_PIXELS: usize = 8;
 
 /// Length, in rows, of the windows over which the shape's part of the rows' differences is measured.
 const SMOOTH_WINDOW: usize = 32;
 
 /// Minimum ratio of the shape's spectral density to the offsets' variance: parts of the offsets that change more slowly are
-/// not told from a shape.
+/// not told from a shape, and have no least-squares solution without it.
 const MIN_SHAPE_RATIO: f64 = 1e-6;
 
 impl HeightImage {
@@ -63,9 +57,7 @@ fn line_offsets(
         let difference =
             |at: usize| height(line, at) - 0.5 * (height(line - 1, at) + height(line + 1, at));
         let mut known: Vec<f64> = places.map(difference).filter(|d| d.is_finite()).collect();
-        (known.len() >= MIN_HALF_ROW_PIXELS)
-            .then(|| median(&mut known))
-            .flatten()
+        median(&mut known)
     };
     let halves: Option<Vec<[f64; 2]>> = (1..count.checked_sub(1)?)
         .map(|line| Some([differences(line, 0)?, differences(line, 1)?]))
@@ -79,9 +71,9 @@ fn line_offsets(
     let common: Vec<f64> = halves.iter().map(|[a, b]| 0.5 * (a + b)).collect();
     let alternation = sum(&|i| common[i] * common[i - 1], 1) / sum(&|i| common[i].powi(2), 0);
     let log_ratio = -0.5 * halves.len() as f64 * (1.0 - correlation * correlation).max(1e-12).ln();
-    let has_offsets = correlation > 0.0
-        && log_ratio > MIN_LOG_LIKELIHOOD_RATIO
-        && alternation < MAX_ROW_AUTOCORRELATION;
+    // Differences of independent offsets have an autocorrelation of −2/3, those of a shape that bends about 1.
+    let has_offsets =
+        correlation > 0.0 && log_ratio > MIN_LOG_LIKELIHOOD_RATIO && alternation < 0.0;
     if !has_offsets {
         return None;
     }

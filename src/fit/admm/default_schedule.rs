@@ -24,11 +24,12 @@ use crate::fit::report::StopReason;
 /// Maximum number of conjugate-gradient iterations in a z-step of the default schedule.
 const MAX_CG_ITERATIONS: usize = 1;
 
-/// Maximum number of conjugate-gradient iterations in a z-step on a lattice while the duality gap is large.
+/// Maximum number of conjugate-gradient iterations in a z-step on a lattice while the duality gap is large
+/// (`benches/choices.md`, One constant at a time).
 const MAX_CG_ITERATIONS_LARGE_GAP: usize = 2;
 
 /// Maximum number of conjugate-gradient iterations in a z-step where some vertices have hardly any fidelity weight,
-/// because a V-cycle reduces the error less there.
+/// because a V-cycle reduces the error less there (`benches/choices.md`, One constant at a time).
 const MAX_CG_ITERATIONS_WEAK_FIDELITY: usize = 4;
 
 /// Relative duality gap above which a second conjugate-gradient iteration in each z-step pays. Below, it saves hardly
@@ -39,24 +40,24 @@ const EXTRA_CG_GAP: f64 = 0.03;
 /// (`benches/choices.md`, Schedule by ablation).
 const CG_REDUCTION: f64 = 0.005;
 
-/// Over-relaxation factor of `Cz` in ADMM's updates of Hessians and dual.
+/// Over-relaxation factor of `Cz` in ADMM's updates of Hessians and dual
+/// (`benches/choices.md`, One constant at a time).
 const OVER_RELAXATION: f64 = 1.8;
 
-/// Number of ADMM iterations from one check of the certificate to the next.
+/// Number of ADMM iterations from one check of the certificate to the next
+/// (`benches/choices.md`, One constant at a time).
 const CHECK_ITERATIONS: usize = 10;
 
 /// Number of ADMM iterations from one check of the certificate to the next at the start of a multigrid level
 /// (`benches/choices.md`, Schedule by ablation).
 const FREQUENT_CHECK_ITERATIONS: usize = 5;
 
-/// Number of ADMM iterations at the start of a multigrid level in which checks of the certificate are more frequent.
+/// Number of ADMM iterations at the start of a multigrid level in which checks of the certificate are more frequent
+/// (`benches/choices.md`, One constant at a time).
 const FREQUENT_CHECKS_END: usize = 30;
 
-/// Maximum ratio of the current duality gap to the requested one at which dual ascent is tried.
-const MAX_ASCENT_GAP_RATIO: f64 = 100.0;
-
 /// Minimum requested duality gap at which rank reduction is applied; surfaces solved to a smaller gap have Hessians of
-/// rank one already.
+/// rank one already (`benches/choices.md`, One constant at a time).
 const MIN_RANK_REDUCTION_GAP: f64 = 2e-3;
 
 /// State of the default schedule on one multigrid level.
@@ -360,8 +361,7 @@ fn has_rank_one_optimum<O: SolvableOperator>(problem: &Problem<O>) -> bool {
 
 /// Returns whether dual ascent may reach the requested duality gap from the current one.
 fn is_ascent_useful<O: SolvableOperator>(admm: &Admm<O>) -> bool {
-    let (gap, requested) = (admm.incumbent.gap(), admm.parameters.gap);
-    has_rank_one_optimum(&admm.problem) && gap > requested && gap < MAX_ASCENT_GAP_RATIO * requested
+    has_rank_one_optimum(&admm.problem) && admm.incumbent.gap() > admm.parameters.gap
 }
 
 /// Returns the reason to stop after a check, if there is one: the requested gap is certified, rounding errors, or the

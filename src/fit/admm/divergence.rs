@@ -1,7 +1,7 @@
 //! Detection of ADMM iterates that diverge, as they may where z-steps are solved too inexactly.
 
 /// Factor by which the objective must grow from one check to the next, and exceed the objective of the input heights,
-/// for ADMM's iterates to count as divergent.
+/// for ADMM's iterates to count as divergent (`benches/choices.md`, One constant at a time).
 const DIVERGENCE_FACTOR: f64 = 10.0;
 
 /// Maximum number of restarts of ADMM after a divergence; each restart doubles the conjugate-gradient iterations of a

@@ -25,11 +25,12 @@ use crate::math::lanes::{self, narrow, widen};
 use crate::math::sym2::{Sym2, clamp};
 
 /// Number of gradient steps of a dual ascent from one evaluation of the dual bound to the next; each step costs a third
-/// to a fourth of an ADMM iteration.
+/// to a fourth of an ADMM iteration (`benches/choices.md`, One constant at a time).
 const STEPS_PER_EVALUATION: usize = 8;
 
 /// Maximum ratio of the increase that is still missing from the dual bound to its last increase at which the ascent
-/// continues: each evaluation increases the bound by about half of what the one before did.
+/// continues: each evaluation increases the bound by about half of what the one before did
+/// (`benches/choices.md`, One constant at a time).
 const EXTRAPOLATION_FACTOR: f64 = 1.5;
 
 /// Momentum of the `k`-th step of accelerated gradient ascent (Beck and Teboulle), as a share of the step before.

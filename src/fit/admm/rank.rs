@@ -21,7 +21,8 @@ use crate::math::lanes;
 use crate::math::real::larger;
 use crate::math::sym2::Sym2;
 
-/// Number of steps of a rank reduction, each of which costs about as much as an iteration of ADMM.
+/// Number of steps of a rank reduction, each of which costs about as much as an iteration of ADMM
+/// (`benches/choices.md`, One constant at a time).
 const RANK_STEPS: usize = 8;
 
 /// Threshold of the Hessians' smaller eigenvalues in the first step of a rank reduction, in medians of their absolute

@@ -15,9 +15,6 @@ use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::options::Schedule;
 use crate::fit::report::{LevelReport, StopReason};
 
-/// Number of ADMM iterations that a surface takes to adapt to a load on its border.
-const LOAD_WARMUP_ITERATIONS: usize = 5;
-
 /// ADMM on one multigrid level, with the schedule that it follows.
 #[derive(Debug, Clone)]
 pub(crate) struct AdmmSolver<O: SolvableOperator> {
@@ -102,8 +99,7 @@ impl<O: SolvableOperator> AdmmSolver<O> {
         self.begin_pass()
     }
 
-    /// Reduces the penalty weights of stencils on sharp creases of the incumbent, of a bend radius below `radius`, if
-    /// enough weights change.
+    /// Reduces the penalty weights of stencils on sharp creases of the incumbent, of a bend radius below `radius`.
     pub(crate) fn reweight_creases(&mut self, radius: f64) -> Result<Creases> {
         let Admm {
             problem, incumbent, ..
@@ -116,15 +112,15 @@ impl<O: SolvableOperator> AdmmSolver<O> {
     pub(crate) fn begin_pass_at_creases(&mut self, loaded: bool) -> Result<Option<StopReason>> {
         let reason = self.begin_pass()?;
         if loaded {
-            self.follow_load(LOAD_WARMUP_ITERATIONS);
+            self.follow_load();
             return Ok(None);
         }
         Ok(reason)
     }
 
-    /// Lets the surface adapt to a load on its border for a number of iterations, before which ADMM does not stop.
-    pub(crate) fn follow_load(&mut self, iterations: usize) {
-        self.admm.warmup.start(self.admm.iteration, iterations);
+    /// Lets the surface adapt to a load on its border in the next iteration, before which ADMM does not stop.
+    pub(crate) fn follow_load(&mut self) {
+        self.admm.warmup.start(self.admm.iteration);
     }
 
     fn begin_pass(&mut self) -> Result<Option<StopReason>> {

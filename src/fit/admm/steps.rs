@@ -16,7 +16,7 @@ use crate::fit::linear::z_step_solver::{SolvableOperator, ZStepSolver};
 use crate::fit::report::{Seconds, StopReason};
 
 /// Minimum number of ADMM iterations between two balancings of the dual, each of which costs about as much as these
-/// iterations.
+/// iterations (`benches/choices.md`, One constant at a time).
 const BALANCE_ITERATIONS: usize = 20;
 
 /// ADMM on one multigrid level without a schedule: problem, iterate and incumbent.

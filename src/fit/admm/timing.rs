@@ -21,17 +21,18 @@ impl GrowingInterval {
     }
 }
 
-/// Warm-up iterations in which a surface adapts to a load on its border. The load is a tiny part of the energy, so that
-/// the duality gap says nothing before the surface has followed it.
+/// Warm-up in which a surface adapts to a load on its border: until the first check after one more iteration, since it is
+/// near the solution. The load is a tiny part of the energy, so that the duality gap says nothing before the surface has
+/// followed it.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct LoadWarmup {
     last_iteration: usize,
 }
 
 impl LoadWarmup {
-    /// Starts the ADMM iterations in which the surface adapts to a load on its border, at `iteration` and for `iterations`.
-    pub(super) fn start(&mut self, iteration: usize, iterations: usize) {
-        self.last_iteration = iteration + iterations;
+    /// Starts the warm-up at an ADMM iteration.
+    pub(super) fn start(&mut self, iteration: usize) {
+        self.last_iteration = iteration + 1;
     }
 
     /// Returns whether an iterate replaces the incumbent even if its objective is larger, because the warm-up lasts.
@@ -111,9 +112,9 @@ mod tests {
     fn a_surface_that_follows_a_load_does_not_stop() {
         let mut warmup = LoadWarmup::default();
         assert!(warmup.may_stop(0) && !warmup.replaces_incumbent(1));
-        warmup.start(7, 10);
-        assert!(warmup.replaces_incumbent(17) && !warmup.replaces_incumbent(18));
-        assert!(!warmup.may_stop(16) && warmup.may_stop(17));
+        warmup.start(7);
+        assert!(warmup.replaces_incumbent(8) && !warmup.replaces_incumbent(9));
+        assert!(!warmup.may_stop(7) && warmup.may_stop(8));
     }
 
     #[test]

@@ -9,39 +9,26 @@ use crate::error::Result;
 use crate::fit::operator::Operator;
 use crate::lattice::per_cell::PerCell;
 
-/// Minimum penalty weight of a stencil on a crease, relative to a smooth stencil's: keeps the problem well conditioned.
+/// Minimum penalty weight of a stencil on a crease, relative to a smooth stencil's: keeps the problem well conditioned
+/// (`benches/choices.md`, One constant at a time).
 const MIN_CREASE_WEIGHT: f64 = 0.05;
 
 /// Penalty weight of a stencil on a crease between regions that are known to be smooth, relative to a smooth stencil's
 /// (`benches/whole.md`).
 const KNOWN_CREASE_WEIGHT: f64 = 0.01;
 
-/// Minimum relative change at which a stencil's penalty weight counts as changed.
-const MIN_WEIGHT_CHANGE: f64 = 0.1;
-
-/// Minimum share of stencils on creases whose weight has changed at which another crease pass is worth its time.
-const MIN_CHANGED_CREASES: f64 = 0.02;
-
-/// Counts of the stencils on creases in one reweighting pass.
+/// Stencils on creases in one reweighting pass.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Creases {
     /// Number of stencils with a penalty weight below 1.
     pub vertices: usize,
-    /// Number of stencils on creases, in this pass or the one before, whose penalty weight has changed.
-    pub changed: usize,
-}
-
-impl Creases {
-    /// Returns whether enough weights have changed for the pass to be worth its time.
-    pub(crate) fn is_worth(self) -> bool {
-        self.changed as f64 > MIN_CHANGED_CREASES * self.vertices as f64
-    }
+    /// Whether the penalty weight of any stencil has changed, so that another solve differs from the last one.
+    pub changed: bool,
 }
 
 impl<O: Operator> Problem<O> {
-    /// Sets the penalty weights `ω = min(1, T/s̄)`, where `s̄` is `‖Cz‖_*` averaged once with the neighbours, if that
-    /// changes enough of them. `radius` is `1/T`, in normalised coordinates: a bend of a smaller radius counts as a
-    /// crease.
+    /// Sets the penalty weights `ω = min(1, T/s̄)`, where `s̄` is `‖Cz‖_*` averaged once with the neighbours. `radius` is
+    /// `1/T`, in normalised coordinates: a bend of a smaller radius counts as a crease.
     pub(crate) fn reweight_creases(&mut self, z: &[f64], radius: f64) -> Result<Creases> {
         let mut weights = self.norms(z)?;
         self.operator.spread(&mut weights);
@@ -53,12 +40,11 @@ impl<O: Operator> Problem<O> {
             } else {
                 1.0
             };
-            let before = self.weight.at(stencil);
             creases.vertices += usize::from(weight < 1.0);
-            creases.changed += usize::from((weight - before).abs() > MIN_WEIGHT_CHANGE * before);
+            creases.changed |= weight != self.weight.at(stencil);
             weights[stencil] = weight;
         }
-        if creases.is_worth() {
+        if creases.changed {
             self.weight = PerCell::Each(weights);
         }
         Ok(creases)

@@ -9,25 +9,28 @@ use crate::lattice::per_cell::PerCell;
 use crate::math::fork;
 
 /// Nuclear norm of a Hessian, as a share of the mean norm, that counts as small when all stencils are reweighted: the ε
-/// of the reweighting.
+/// of the reweighting (`benches/choices.md`, One constant at a time).
 const NEGLIGIBLE_NORM_SHARE: f64 = 0.3;
 
 /// Minimum fidelity weight, in units of `1/(λh⁴)`, at which a vertex is fixed at its height: it would hardly move, and
-/// fixing it costs less than a tenth, because the norm of one Hessian is of order 1 to 1/h.
+/// fixing it costs less than a tenth, because the norm of one Hessian is of order 1 to 1/h
+/// (`benches/choices.md`, One constant at a time).
 const PINNED_FIDELITY: f64 = 1e3;
 
-/// Fidelity weight of a vertex, as a share of the largest, below which it counts as weak.
+/// Fidelity weight of a vertex, as a share of the largest, below which it counts as weak
+/// (`benches/choices.md`, One constant at a time).
 const WEAK_FIDELITY_SHARE: f64 = 5e-3;
 
 /// Largest possible fidelity, as a share of the input's penalty, below which constraints alone are said to hold the
-/// surface.
+/// surface (`benches/choices.md`, One constant at a time).
 const NEGLIGIBLE_FIDELITY_SHARE: f64 = 0.1;
 
 /// Rounding error of a Hessian's norm, in rounding errors of the largest height divided by the squared spacing: a norm
 /// is a sum of about as many heights.
 pub(crate) const HESSIAN_ROUNDING_UNITS: f64 = 16.0;
 
-/// Number of times that Hessians' norms are averaged with their neighbours' before all stencils are reweighted.
+/// Number of times that Hessians' norms are averaged with their neighbours' before all stencils are reweighted
+/// (`benches/choices.md`, One constant at a time).
 const NORM_AVERAGING_STEPS: usize = 30;
 
 /// Optimisation problem of a solve: to minimise the energy `P(z) = λ Σ w (z − z̃)² + Σ ω f(Cz)` (paper, Eq. 15), summed

@@ -14,7 +14,7 @@ use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, OPPOSITE_DIRECTION};
 use crate::lattice::per_cell::PerCell;
 
 /// Weight of each neighbour in the averages of multigrid prolongation; the vertex itself has the rest of the weight, at
-/// least ¼.
+/// least ¼ (`benches/choices.md`, One constant at a time).
 const NEIGHBOUR_WEIGHT: f32 = 0.125;
 
 /// Averages of multigrid prolongation at boundary vertices: each vertex is averaged with those pairs of opposite

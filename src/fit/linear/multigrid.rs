@@ -19,21 +19,24 @@ use crate::lattice::domain::Domain;
 use crate::lattice::per_cell::PerCell;
 use crate::math::{fork, lanes};
 
-/// Number of smoothing steps of a V-cycle on each lattice before and after the coarse correction.
+/// Number of smoothing steps of a V-cycle on each lattice before and after the coarse correction
+/// (`benches/choices.md`, One constant at a time).
 const SMOOTHING_STEPS: usize = 2;
 
 /// Ratio of the largest to the smallest eigenvalue whose error the smoother reduces; the coarse lattice reduces the
-/// errors of smaller eigenvalues.
+/// errors of smaller eigenvalues (`benches/choices.md`, One constant at a time).
 const SMOOTHED_EIGENVALUE_RATIO: f32 = 5.0;
 
-/// Maximum condition number of a lattice's matrix at which a V-cycle needs no coarser lattice.
+/// Maximum condition number of a lattice's matrix at which a V-cycle needs no coarser lattice
+/// (`benches/choices.md`, One constant at a time).
 const MAX_BOTTOM_CONDITION: f32 = 8.0;
 
-/// Maximum number of smoothing steps on the coarsest lattice of a V-cycle.
+/// Maximum number of smoothing steps on the coarsest lattice of a V-cycle
+/// (`benches/choices.md`, One constant at a time).
 const MAX_BOTTOM_STEPS: f32 = 40.0;
 
 /// Maximum number of unknowns of a coarsest lattice that is solved by a Cholesky factorisation where Chebyshev's
-/// iteration would need more than [`MAX_BOTTOM_STEPS`] steps.
+/// iteration would need more than [`MAX_BOTTOM_STEPS`] steps (`benches/choices.md`, One constant at a time).
 const MAX_DIRECT_UNKNOWNS: usize = 300;
 
 /// Amount added to the diagonal of a matrix before its Cholesky factorisation, relative to the diagonal, so that a
@@ -41,7 +44,8 @@ const MAX_DIRECT_UNKNOWNS: usize = 300;
 const DIAGONAL_SHIFT: f32 = 1e-5;
 
 /// Stiffness of the springs that hold coarse vertices in place of constrained ones ([`Shares`]), relative to the finest
-/// matrix's diagonal: the value with the fewest iterations on drawn curves; 1 and 0.001 took half as many again.
+/// matrix's diagonal: the value with the fewest iterations on drawn curves; 1 and 0.001 took half as many again
+/// (`benches/choices.md`, One constant at a time).
 const SPRING_STIFFNESS: f64 = 0.03;
 
 /// Multigrid hierarchy: lattices, each of twice the spacing of the one before, and the transfers between them.

@@ -339,9 +339,8 @@ impl MeshLevel {
         let (mut solver, reason) =
             AdmmSolver::new(problem, iterate, solver, parameters, first, false)?;
         Ok(match self.loaded {
-            // One round between checks is enough, since the base is near the solution.
             true => {
-                solver.follow_load(1);
+                solver.follow_load();
                 (solver, None)
             }
             false => (solver, reason),

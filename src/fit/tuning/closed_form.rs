@@ -8,7 +8,7 @@ use crate::fit::options::{Energy, HuberOptions, LAMBDA_RANGE, Lambda, Options};
 use crate::fit::report::{LambdaChoice, LambdaReason};
 
 /// Product `λ σ h` under white noise, in normalised coordinates: σ is the noise's standard deviation, h the spacing. The
-/// best λ is about there.
+/// best λ is about there (`benches/scenes.md`, One constant at a time).
 const WHITE_LAMBDA_NOISE: f64 = 8.0;
 
 /// Product `λ σ h √A` under correlated noise, of which `A` vertices share a value, in
@@ -19,14 +19,13 @@ const CORRELATED_LAMBDA_NOISE: f64 = 14.0;
 /// λ of an input that is free of noise.
 const WITHOUT_NOISE: Lambda = Lambda::Big;
 
-/// Minimum product `σ √A` of noise, as a share of the height range; what is less, smooth bends of a shape have, too.
-const MIN_NOISE_SHARE: f64 = 3e-4;
-
 /// Maximum standard deviation of smooth noise of heights that no camera has measured, as a share of the height range. What looks
-/// like larger noise may be the shape of a terrain, which is alike at every scale.
+/// like larger noise may be the shape of a terrain, which is alike at every scale
+/// (`benches/scenes.md`, One constant at a time).
 const MAX_SMOOTH_NOISE_SHARE: f64 = 0.035;
 
-/// Root mean square distance that a surface may have from heights without noise, as a share of their range.
+/// Root mean square distance that a surface may have from heights without noise, as a share of their range
+/// (`benches/scenes.md`, One constant at a time).
 const DEFAULT_TOLERANCE: f64 = 0.002;
 
 /// Noise and scale of an input, known before its solve.
@@ -96,10 +95,9 @@ pub(crate) fn initial_options(
         };
         product / (noise.product * scale * scale)
     });
-    let is_noise = noise.is_some_and(|noise| noise.white_equivalent > MIN_NOISE_SHARE * range);
     let lambda = match lambda {
         None => Lambda::Medium,
-        Some(lambda) if is_noise && lambda <= *LAMBDA_RANGE.end() => {
+        Some(lambda) if lambda <= *LAMBDA_RANGE.end() => {
             choice.reason = LambdaReason::Noise;
             Lambda::Value(lambda.max(*LAMBDA_RANGE.start()))
         }

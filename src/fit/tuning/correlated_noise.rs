@@ -8,7 +8,7 @@
 use super::curvature_scales::{CurvatureScale, Disc};
 
 /// Largest coherence of neighbouring discs' curvatures along the rulings of noise. Bends of a shape that is not developable have a
-/// coherence near 1.
+/// coherence near 1 (`benches/scenes.md`, One constant at a time).
 const MAX_COHERENCE: f64 = 0.8;
 
 /// Largest root mean square of the logarithms of the ratios of measured noise to that of a fitted covariance that explains it
@@ -27,16 +27,19 @@ const MAX_ACROSS_RATIO: f64 = 2.0;
 /// anisotropic, as that of scan lines is.
 const MIN_ANISOTROPY: f64 = 3.0;
 
-/// Largest mean cosine between Hessians of discs side by side of noise, where no bend of a shape is seen.
+/// Largest mean cosine between Hessians of discs side by side of noise, where no bend of a shape is seen
+/// (`benches/scenes.md`, One constant at a time).
 const MAX_NOISE_LIKENESS: f64 = 0.15;
 
 /// Number of positive correlation lengths that are tried when a covariance is fitted.
 const LENGTH_TRIALS: u32 = 40;
 
-/// Minimum positive correlation length that is tried, in radii of the largest disc that is used. 0 is tried, too.
+/// Minimum positive correlation length that is tried, in radii of the largest disc that is used. 0 is tried, too
+/// (`benches/scenes.md`, One constant at a time).
 const MIN_LENGTH_RADII: f64 = 0.02;
 
-/// Maximum correlation length that is tried, in radii of the largest disc that is used.
+/// Maximum correlation length that is tried, in radii of the largest disc that is used
+/// (`benches/scenes.md`, One constant at a time).
 const MAX_LENGTH_RADII: f64 = 1.2;
 
 /// Noise with a Gaussian covariance: its standard deviation and correlation length.

@@ -4,10 +4,9 @@
 //! the discs beside it show, while noise bends in every direction at every scale, whatever its correlation.
 
 use super::merge::merge;
-use super::trust::{largest_trust, sample};
+use super::trust::{least_trust, sample};
 use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
-use crate::heights::bridging::BRIDGE_CONFIDENCE;
 use crate::heights::heightfield::Heightfield;
 use crate::lattice::hexagonal::ROW_SPACING;
 use crate::math::fork;
@@ -169,7 +168,7 @@ pub(super) fn curvature_scales(input: &Input, discs: &[Disc]) -> Result<Vec<Curv
     let lattice = *input.field.lattice();
     let mut heights = try_filled("heights whose noise is measured", lattice.len(), f64::NAN)?;
     // What is bridged is nearly as smooth as the rest; what is trusted less says nothing about the noise.
-    let least = BRIDGE_CONFIDENCE * largest_trust(input);
+    let least = least_trust(input);
     for vertex in (0..lattice.len()).filter(|vertex| !input.is_occluded(*vertex)) {
         heights[vertex] = sample(input, vertex, least);
     }

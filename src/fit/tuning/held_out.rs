@@ -6,17 +6,18 @@
 //! energy it minimises. They are independent only if noise is independent from vertex to vertex.
 
 use super::noise::MIN_NOISE_SAMPLES;
-use super::trust::{MIN_SAMPLE_CONFIDENCE, largest_trust, sample};
+use super::trust::{least_trust, sample};
 use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
 use crate::heights::heightfield::Heightfield;
 
 /// Number of classes that the vertices are divided into, one of which is held out. No class has two neighbouring
-/// vertices.
+/// vertices (`benches/scenes.md`, One constant at a time).
 const HELD_OUT_CLASSES: usize = 3;
 
 /// Confidence of the mean of the six neighbours that replaces a held-out height, as a share of the largest confidence:
-/// large enough that the solve converges fast, too small to change its surface.
+/// large enough that the solve converges fast, too small to change its surface
+/// (`benches/scenes.md`, One constant at a time).
 const MADE_UP: f64 = 0.01;
 
 /// Input without the heights that are held out, and these heights.
@@ -39,7 +40,7 @@ impl HeldOut {
             *value = input.trust(vertex);
         }
         let largest = confidence.iter().copied().fold(0.0, f64::max);
-        let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
+        let least = least_trust(input);
         let mut samples = Vec::new();
         for row in 0..lattice.rows() {
             for col in (0..lattice.cols()).filter(|col| class_of(row, *col) == 0) {
@@ -69,34 +70,19 @@ impl HeldOut {
         Ok(Some(HeldOut { input, samples }))
     }
 
-    /// Squared differences between a surface and each held-out height, times the height's confidence.
-    pub(crate) fn misses(&self, surface: &Heightfield) -> Vec<f64> {
+    /// Squared differences between a surface and the held-out heights, weighted by the heights' confidence: their sum.
+    pub(crate) fn squared_error(&self, surface: &Heightfield) -> f64 {
         let squares = self.samples.iter().map(|(vertex, height, weight)| {
             let miss = surface.heights()[*vertex] - height;
             weight * miss * miss
         });
-        squares.collect()
+        squares.sum()
     }
 }
 
 /// Returns the class, from 0 to 2, of a vertex in cross-validation. Neighbouring vertices are in different classes.
 fn class_of(row: usize, col: usize) -> usize {
     (row / 2 + row + col) % HELD_OUT_CLASSES
-}
-
-/// Returns the mean of `misses − others` (squared prediction errors of two solves), in standard errors of that mean:
-/// positive where `others` are smaller. 0 if the mean is 0 or NaN.
-pub(crate) fn advantage(misses: &[f64], others: &[f64]) -> f64 {
-    let count = misses.len() as f64;
-    let differences = || misses.iter().zip(others).map(|(a, b)| a - b);
-    let mean = differences().sum::<f64>() / count;
-    let variance = differences().map(|d| (d - mean).powi(2)).sum::<f64>() / count;
-    let error = (variance / count).sqrt();
-    if mean == 0.0 || mean.is_nan() {
-        0.0
-    } else {
-        mean / error
-    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::correlated_noise::CorrelatedNoise;
 use super::curvature_scales::{DISC_RADII, Disc, curvature_scales};
-use super::trust::{MIN_SAMPLE_CONFIDENCE, largest_trust, sample};
+use super::trust::{largest_trust, least_trust, sample};
 use crate::error::Result;
 use crate::fit::input::Input;
 use crate::heights::pixel_noise::quantisation_step;
@@ -14,7 +14,7 @@ use crate::math::statistics::{MAD_TO_SIGMA, median};
 pub(super) const MIN_NOISE_SAMPLES: usize = 50;
 
 /// Minimum ratio of the noise estimated from large discs to that from rings of six neighbours at which noise counts as
-/// correlated. Bends of the shape beside white noise raise it to 1.8.
+/// correlated. Bends of the shape beside white noise raise it to 1.8 (`benches/scenes.md`, One constant at a time).
 const MIN_CORRELATED_RATIO: f64 = 2.5;
 
 /// Share of the standard deviation of independent pixels that is left between them, where heights are bilinear: the mean of
@@ -115,7 +115,7 @@ fn correlated_noise(input: &Input) -> Result<Option<CorrelatedNoise>> {
 /// than [`MIN_NOISE_SAMPLES`] rings.
 fn ring_noise(input: &Input) -> Option<f64> {
     let lattice = input.field.lattice();
-    let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
+    let least = least_trust(input);
     let mut samples = vec![Vec::new(); lattice.rows()];
     fork::for_each(&mut samples, |row, samples| {
         for col in 0..lattice.cols() {

@@ -1,6 +1,6 @@
 //! Distance of a surface to the heights of its input, by which λ is judged.
 
-use super::trust::{MIN_SAMPLE_CONFIDENCE, largest_trust, sample};
+use super::trust::{least_trust, sample};
 use crate::error::{Result, try_filled};
 use crate::fit::input::Input;
 use crate::heights::heightfield::Heightfield;
@@ -13,7 +13,7 @@ pub(super) fn residuals(
     surface: &Heightfield,
     unit: f64,
 ) -> Result<Vec<f64>> {
-    let least = MIN_SAMPLE_CONFIDENCE * largest_trust(input);
+    let least = least_trust(input);
     let mut residuals = try_filled("residuals", input.field.lattice().len(), f64::NAN)?;
     for cell in domain.active().cells() {
         let vertex = domain.lattice_index(cell);

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use web_time::Instant;
 
 use super::closed_form::{Known, with_huber_defaults};
-use super::held_out::{HeldOut, advantage};
+use super::held_out::HeldOut;
 use super::merge::merge;
 use super::refinement::{Aim, Next, Refinement};
 use super::residual::root_mean_square;
@@ -24,13 +24,11 @@ use crate::fit::warm_start::WarmStart;
 /// (`benches/scenes.md`, Fewer rules).
 const OTHER_PENALTIES: [HuberOptions; 2] = [HuberOptions::new(0.1, 1.0, 0.2), HuberOptions::SMOOTH];
 
-/// Minimum number of standard errors by which a candidate must predict held-out heights better to replace the best one.
-const MIN_ADVANTAGE: f64 = 1.0;
-
 /// Minimum number of interior vertices of a coarse lattice (`benches/scenes.md`).
 const MIN_COARSE_VERTICES: usize = 400;
 
-/// Relative duality gap of coarse solves: their surfaces differ by more than it leaves open.
+/// Relative duality gap of coarse solves: their surfaces differ by more than it leaves open
+/// (`benches/scenes.md`, One constant at a time).
 const SEARCH_GAP: f64 = 0.05;
 
 /// Choice of λ and of the penalty in progress.
@@ -71,8 +69,8 @@ struct Comparison {
     penalties: Vec<HuberOptions>,
     now: usize,
     best: usize,
-    /// Squared prediction errors of the best candidate.
-    misses: Vec<f64>,
+    /// Squared prediction error of the best candidate.
+    error: f64,
 }
 
 impl Search {
@@ -168,7 +166,7 @@ impl Search {
                 }
             }
             Stage::Penalty(comparison) => {
-                comparison.take(comparison.held_out.misses(surface.heightfield()));
+                comparison.take(comparison.held_out.squared_error(surface.heightfield()));
                 let Some(penalty) = comparison.penalties.get(comparison.now).copied() else {
                     self.penalty = comparison.penalties[comparison.best];
                     return Ok(false);
@@ -196,7 +194,7 @@ impl Search {
             penalties: [self.penalty].into_iter().chain(OTHER_PENALTIES).collect(),
             now: 0,
             best: 0,
-            misses: Vec::new(),
+            error: f64::INFINITY,
             held_out,
         };
         *self.solve = trial(
@@ -228,14 +226,10 @@ impl Search {
 }
 
 impl Comparison {
-    /// Compares a penalty's squared prediction errors with the best ones.
-    fn take(&mut self, misses: Vec<f64>) {
-        let sum = |misses: &[f64]| misses.iter().sum::<f64>();
-        let is_better = self.now == 0
-            || sum(&misses) <= sum(&self.misses)
-                && advantage(&self.misses, &misses) > MIN_ADVANTAGE;
-        if is_better {
-            (self.best, self.misses) = (self.now, misses);
+    /// Compares a penalty's squared prediction error with the least one.
+    fn take(&mut self, error: f64) {
+        if error < self.error {
+            (self.best, self.error) = (self.now, error);
         }
         self.now += 1;
     }

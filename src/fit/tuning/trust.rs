@@ -1,10 +1,7 @@
 //! Heights that are trusted enough for noise to be measured from them.
 
 use crate::fit::input::Input;
-
-/// Minimum confidence of a height that noise is measured from in rings of neighbours, as a share of the largest: discards bridged
-/// vertices.
-pub(super) const MIN_SAMPLE_CONFIDENCE: f64 = 0.5;
+use crate::heights::bridging::BRIDGE_CONFIDENCE;
 
 /// Largest confidence of a height that is not constrained.
 pub(super) fn largest_trust(input: &Input) -> f64 {
@@ -15,6 +12,11 @@ pub(super) fn largest_trust(input: &Input) -> f64 {
             .map(|v| input.weight(v))
             .fold(0.0, f64::max),
     }
+}
+
+/// Least confidence of a height that noise is measured from: bridged vertices, but for those beside a height, have less.
+pub(super) fn least_trust(input: &Input) -> f64 {
+    BRIDGE_CONFIDENCE * largest_trust(input)
 }
 
 /// Height of a vertex; NaN where its confidence is below `least` or 0, or the vertex is constrained.

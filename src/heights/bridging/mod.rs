@@ -46,7 +46,8 @@ pub enum Bridging {
 const MAX_BRIDGE_WIDTH_VERTICES: usize = 16;
 
 /// Confidence of a bridged vertex one step from data on all sides, relative to the data's confidence; it falls with the
-/// distance. With a hundredth of it, or none, the same surface takes more iterations.
+/// distance. With a hundredth of it, or none, the same surface takes more iterations
+/// (`benches/scenes.md`, One constant at a time).
 pub(crate) const BRIDGE_CONFIDENCE: f64 = 0.2;
 
 impl Default for Bridging {

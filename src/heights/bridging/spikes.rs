@@ -10,18 +10,19 @@ use std::iter;
 use super::raster::Raster;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
-/// Minimum height of a spike, in standard deviations of the heights' differences to the means of opposite neighbours.
+/// Minimum height of a spike, in standard deviations of the heights' differences to the means of opposite neighbours
+/// (`benches/scenes.md`, One constant at a time).
 const MIN_SPIKE_DEVIATIONS: f64 = 5.0;
 
 /// Maximum ratio of a spike's height over neighbours two steps away to that over neighbours one step away; the tip of a
-/// cone has 2.
+/// cone has 2 (`benches/scenes.md`, One constant at a time).
 const MAX_SPIKE_GROWTH: f64 = 1.5;
 
 /// Number of passes: spikes side by side hide each other until one of them is known.
 const SPIKE_PASSES: usize = 3;
 
 /// Number of steps to each side from a spike within which the spread of differences is measured, and neighbours are looked for where
-/// the nearest heights are missing, as between dead pixels.
+/// the nearest heights are missing, as between dead pixels (`benches/scenes.md`, One constant at a time).
 const SPREAD_REACH: usize = 3;
 
 /// Differences smaller than this share of the height range are rounding errors.

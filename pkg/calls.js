@@ -72,7 +72,7 @@ export const CALLS = {
   },
   writeBook: {
     parts: ['files'],
-    send: (pages, given) => [asBook(pages).map(({ picture, size }) => ({ picture: new Uint8Array(picture), size })), optionsOf('writeBook', given)],
+    send: (pages, given) => [asBook(pages).map((page) => ({ ...page, picture: new Uint8Array(page.picture) })), optionsOf('writeBook', given)],
   },
   readMesh: {
     parts: ['meshes'],

@@ -344,7 +344,8 @@ export function writePhoto(photo, given) {
 
 /** @type {typeof import('./direct.js').writeBook} */
 export function writeBook(pages, given) {
-  const book = asBook(pages);
+  const book = asBook(pages).map(({ words, ...page }) => (
+    { ...page, texts: words.map(({ text }) => text), boxes: Float64Array.from(words.flatMap(({ box }) => box)) }));
   const options = optionsOf('writeBook', given);
   return bytesOf((wasm) => wasm.writeBook(book, options));
 }

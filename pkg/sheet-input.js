@@ -2,15 +2,15 @@
 import { DevelopableError } from './errors.js';
 import { asBytes, cells, count } from './input.js';
 import { optionsOf } from './options.js';
-import { reading, record, show, typeOf, viewOf } from './values.js';
+import { asText, reading, record, show, typeOf, viewOf } from './values.js';
 
 /**
  * @typedef {import('./types.js').HeightImage | import('./types.js').Heightfield} Heights
  * @typedef {{ width: number, height: number, data: Uint8Array }} Pixels
  */
 
-/** Largest number of pages of one PDF. */
-const MAX_BOOK_PAGES = 10_000;
+/** Largest number of pages of one PDF, and of words of one page. */
+const MAX_BOOK_ITEMS = 100_000;
 
 /**
  * A photo, such as an `ImageData`, with its bytes as a view of their own. Other things that it says are its own matter:
@@ -73,23 +73,56 @@ export function printOptions(photo, given) {
 }
 
 /**
- * The pages of a book, each a picture's file and the size of its page in millimetres.
+ * The pages of a book, each a picture's file, the size of its page in millimetres, and the words in its picture.
  * @param {unknown} given
- * @returns {{ picture: Uint8Array, size: [number, number] }[]}
  */
 export function asBook(given) {
-  return reading('INPUT', 'the pages', () => {
-    if (!Array.isArray(given)) throw new DevelopableError('INPUT', 'the pages must be a list of { picture, size }');
-    return Array.from(given.slice(0, MAX_BOOK_PAGES + 1), (page, i) => {
-      if (i === MAX_BOOK_PAGES) throw new DevelopableError('TOO_LARGE', `there are more than ${MAX_BOOK_PAGES} pages, which is the limit`);
-      const { picture, size } = record('INPUT', `page ${i + 1}`, page, ['picture', 'size']);
-      const sides = Array.isArray(size) && size.length === 2 ? [size[0], size[1]] : [];
-      if (sides.length !== 2 || !sides.every((side) => Number.isFinite(side) && side > 0)) {
-        throw new DevelopableError('INPUT', `the size of page ${i + 1} must be its width and height in millimetres, but is ${show(size)}`);
-      }
-      return { picture: asBytes(/** @type {Uint8Array} */ (picture)), size: /** @type {[number, number]} */ (sides) };
-    });
+  return listOf('the pages', '{ picture, size }', given, (page, i) => {
+    const name = `page ${i + 1}`;
+    const { picture, size, words = [] } = record('INPUT', name, page, ['picture', 'size', 'words']);
+    const sides = tuple(size, 2);
+    if (!sides?.every((side) => side > 0)) {
+      throw new DevelopableError('INPUT', `the size of ${name} must be its width and height in millimetres, but is ${show(size)}`);
+    }
+    return {
+      picture: asBytes(/** @type {Uint8Array} */ (picture)),
+      size: /** @type {[number, number]} */ (sides),
+      words: listOf(`the words of ${name}`, '{ text, box }', words, (word, k) => asWord(`word ${k + 1} of ${name}`, word)),
+    };
   });
+}
+
+/** A word with its box in a picture. @param {string} name @param {unknown} given */
+function asWord(name, given) {
+  const { text, box } = record('INPUT', name, given, ['text', 'box']);
+  const bounds = tuple(box, 4);
+  if (bounds === undefined) {
+    throw new DevelopableError('INPUT', `the box of ${name} must be its left, top, width and height in pixels of the picture, but is ${show(box)}`);
+  }
+  return { text: asText('INPUT', `the text of ${name}`, text), box: bounds };
+}
+
+/**
+ * The items of a list of pages or words, each read by a function of it and its index.
+ * @template T
+ * @param {string} what
+ * @param {string} item what its items must be
+ * @param {unknown} given
+ * @param {(item: unknown, index: number) => T} read
+ */
+function listOf(what, item, given, read) {
+  return reading('INPUT', what, () => {
+    if (!Array.isArray(given)) throw new DevelopableError('INPUT', `${what} must be a list of ${item}`);
+    if (given.length > MAX_BOOK_ITEMS) throw new DevelopableError('TOO_LARGE', `${what} are more than ${MAX_BOOK_ITEMS}, which is the limit`);
+    return Array.from(given, read);
+  });
+}
+
+/** A list of so many finite numbers; undefined if it is another thing. @param {unknown} given @param {number} count */
+function tuple(given, count) {
+  if (!Array.isArray(given) || given.length !== count) return undefined;
+  const values = Array.from(given);
+  return values.length === count && values.every(Number.isFinite) ? values : undefined;
 }
 
 /**

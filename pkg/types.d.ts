@@ -377,6 +377,19 @@ export interface BookPage {
   picture: Uint8Array | ArrayBuffer;
   /** Width and height of the page, in millimetres. */
   size: readonly [number, number];
+  /**
+   * Words in the picture, in the order in which they are read. They lie over it as text that is not seen, so that the page can be
+   * searched and copied from.
+   */
+  words?: readonly BookWord[];
+}
+
+/** A word that was recognised in the picture of a page (OCR), or a line of several. */
+export interface BookWord {
+  /** Its characters, of any script. A word of white space alone is left out. */
+  text: string;
+  /** Left, top, width and height, in pixels of the picture, from the picture's upper left corner. */
+  box: readonly [left: number, top: number, width: number, height: number];
 }
 
 /** A surface in the colours of a picture, with texture coordinates for it. */

@@ -6,7 +6,7 @@ import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
-import { readPdfPicture } from './support/drawings.mjs';
+import { readPdfPicture, readPdfWords } from './support/drawings.mjs';
 import { depthCamera, depths, photo as taken, photoCamera } from './support/phone.mjs';
 
 after(() => developable.dispose());
@@ -99,6 +99,40 @@ test('a book has a page for each picture, which is as large as fits and in the m
   }
   assert.throws(() => direct.writeBook([]), error('EMPTY', /book/));
   assert.throws(() => direct.writeBook([{ picture: new Uint8Array([1, 2]), size: [9, 9] }]), error('UNSUPPORTED', /JPEG or PNG/));
+});
+
+test('words of a page lie over its picture, in all scripts', async () => {
+  const jpeg = direct.writePhoto(picture, { format: 'jpeg' });
+  // A word of each script, one with a character beyond 16 bits, and one that hangs over the edge by less than a pixel.
+  const texts = ['naïve', 'ψυχή', 'Привет', '日本語', '𝒳𝒴', '(a\\b)', 'שלום', 'edge'];
+  const words = texts.map((text, i) => ({ text, box: /** @type {const} */ ([3 + i, 8.5 * i + (i === 7 ? 4 : 1), 30 + 5 * i, 7]) }));
+  const blank = { text: ' \n', box: /** @type {const} */ ([0, 0, 0, 0]) };
+  const pages = [{ picture: jpeg, size: /** @type {const} */ ([90, 70]) }, { picture: jpeg, size: /** @type {const} */ ([180, 200]), words: [blank, ...words, blank] }];
+  const book = direct.writeBook(pages);
+  assert.deepEqual(await developable.writeBook(pages), book);
+  assert.deepEqual(await readPdfWords(book, 1), []);
+  const found = await readPdfWords(book, 2);
+  assert.deepEqual(found.map(({ text }) => text), texts);
+  // On this page a pixel is 2 mm, and the picture begins 30 mm below the top.
+  for (const [i, { box: [left, top, wide, high] }] of found.entries()) {
+    const pixels = [left / 2, (top - 30) / 2, wide / 2, high / 2];
+    assert.ok(pixels.every((side, k) => Math.abs(side - words[i].box[k]) < 0.01), `${texts[i]}: ${pixels}`);
+  }
+  const file = Buffer.from(book);
+  assert.ok(file.indexOf(jpeg) > 0 && file.indexOf(jpeg) < file.lastIndexOf(jpeg));
+  const line = ['two', 'words'].map((text, i) => ({ text, box: /** @type {const} */ ([5 + 30 * i, 20, 25, 10]) }));
+  const together = await readPdfWords(direct.writeBook([{ ...pages[0], words: line }]), 1);
+  assert.equal(together.map((word) => word.text).join(' '), 'two words');
+  for (const [given, code, message] of /** @type {[unknown, string, RegExp][]} */ ([
+    [[words[0], { text: 'a', box: [80, 0, 12, 9] }], 'UNSUPPORTED', /word 2 of page 1 .*within its picture of 90 × 70 pixels/],
+    [[{ text: 'a', box: [0, 0, 0, 9] }], 'UNSUPPORTED', /word 1 of page 1/],
+    [[{ text: 'a', box: [0, 0, 9, NaN] }], 'INPUT', /box of word 1 of page 1/],
+    [[{ text: 'a', box: [0, 0, 9] }], 'INPUT', /box of word 1 of page 1/],
+    [[{ text: 5, box: [0, 0, 9, 9] }], 'INPUT', /text of word 1 of page 1/],
+    ['words', 'INPUT', /words of page 1 must be a list/],
+  ])) {
+    assert.throws(() => direct.writeBook(/** @type {any} */ ([{ ...pages[0], words: given }])), error(code, message));
+  }
 });
 
 test('JPEG and PNG state the resolution that is known', async () => {

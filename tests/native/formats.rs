@@ -2,8 +2,8 @@
 
 use developable::dewarp::Photo;
 use developable::files::images::{
-    BookPage, DecodeOptions, Format, PhotoOptions, decode, decode_photo, decode_with, write_book,
-    write_npy, write_photo, write_photo_jpeg, write_photo_pdf, write_png,
+    BookPage, BookWord, DecodeOptions, Format, PhotoOptions, decode, decode_photo, decode_with,
+    write_book, write_npy, write_photo, write_photo_jpeg, write_photo_pdf, write_png,
 };
 use developable::files::wavefront::write_obj;
 use developable::{
@@ -593,6 +593,106 @@ fn black_and_white_photos_have_one_bit_for_each_pixel() {
 }
 
 #[test]
+fn words_of_a_book_lie_over_their_boxes_unseen() {
+    let photo = Photo::new(40, 30, &[255; 4800]).unwrap();
+    let picture = &write_photo_jpeg(&photo, &PhotoOptions::default()).unwrap()[..];
+    // A pixel is a point, and 20 points are below the picture.
+    let size = [40.0, 70.0].map(|points| points * 25.4 / 72.0);
+    let write = |words: &[BookWord<'_>]| {
+        write_book(
+            &[BookPage {
+                picture,
+                size,
+                words,
+            }],
+            None,
+        )
+    };
+    let word = |text, bounds| BookWord { text, bounds };
+    let words = [
+        word("aZ", [10.0, 5.0, 20.0, 4.0]),
+        word(" \n", [0.0; 4]),
+        word("Ω𝒳", [1.0, 10.0, 8.0, 16.0]),
+    ];
+    let book = write(&words).unwrap();
+    assert!(book.windows(picture.len()).any(|part| part == picture));
+    let file = String::from_utf8_lossy(&book);
+    // The left and the lower end of a box, counted from the page's lower left corner; its height is the font's, and two
+    // characters are one em wide before they are stretched.
+    let operands = |operator: &str| -> Vec<Vec<f64>> {
+        let lines = file
+            .lines()
+            .filter_map(|line| line.strip_suffix(operator)?.strip_suffix(' '));
+        lines
+            .map(|line| {
+                line.split_whitespace()
+                    .flat_map(str::parse)
+                    .collect::<Vec<f64>>()
+            })
+            .collect()
+    };
+    let near = |operator: &str, expected: &[&[f64]]| {
+        let found = operands(operator);
+        assert_eq!(found.len(), expected.len(), "{operator}: {found:?}");
+        for (found, expected) in found
+            .iter()
+            .flatten()
+            .zip(expected.iter().copied().flatten())
+        {
+            assert!((found - expected).abs() < 1e-3, "{operator}: {found}");
+        }
+    };
+    near(
+        "Tm",
+        &[
+            &[1.0, 0.0, 0.0, 1.0, 10.0, 41.0],
+            &[1.0, 0.0, 0.0, 1.0, 1.0, 24.0],
+        ],
+    );
+    near("Tf", &[&[4.0], &[16.0]]);
+    near("Tz", &[&[500.0], &[50.0]]);
+    near("Tr", &[&[3.0]]);
+    for mapping in [
+        "<0001> <005A>",
+        "<0002> <0061>",
+        "<0003> <03A9>",
+        "<0004> <D835DCB3>",
+    ] {
+        assert!(file.contains(mapping), "{mapping}");
+    }
+    // PDF has characters from left to right, with those of numbers in their order.
+    let hebrew = write(&[word("שב 12", [0.0, 0.0, 9.0, 9.0])]).unwrap();
+    assert!(
+        String::from_utf8_lossy(&hebrew).contains(r"(\000\002\000\003\000\001\000\004\000\005) Tj")
+    );
+    assert!(!String::from_utf8_lossy(&write(&words[1..2]).unwrap()).contains("/Font"));
+    // A box may hang over an edge by a pixel, since it is often rounded, and nothing else.
+    assert!(write(&[word("a", [-1.0, 0.0, 42.0, 31.0])]).is_ok());
+    for bounds in [
+        [-2.0, 0.0, 9.0, 9.0],
+        [0.0, 23.0, 9.0, 9.0],
+        [f64::NAN, 0.0, 9.0, 9.0],
+        [0.0, 0.0, f64::INFINITY, 9.0],
+        [0.0, 0.0, 0.0, 9.0],
+        [0.0, 0.0, 9.0, -9.0],
+        [0.0, 0.0, 9.0, 1e-300],
+    ] {
+        let error = write(&[words[0], word("a", bounds)]).unwrap_err();
+        assert_eq!(error.code(), "UNSUPPORTED", "{bounds:?}");
+        let message = error.to_string();
+        assert!(
+            message.contains("word 2 of page 1") && message.contains("40 × 30 pixels"),
+            "{message}"
+        );
+    }
+    let all: String = ('\u{1}'..='\u{1FFFF}')
+        .filter(|c| !c.is_whitespace())
+        .collect();
+    let error = write(&[word(&all, [0.0, 0.0, 40.0, 30.0])]).unwrap_err();
+    assert_eq!(error.code(), "TOO_LARGE");
+}
+
+#[test]
 fn books_take_pictures_as_they_are_and_refuse_others() {
     let rgba: Vec<u8> = (0..4 * 40 * 30)
         .map(|i| if i % 4 == 3 { 255 } else { (i % 251) as u8 })
@@ -606,15 +706,27 @@ fn books_take_pictures_as_they_are_and_refuse_others() {
     let size = [210.0, 297.0];
     let pages: Vec<BookPage<'_>> = pictures
         .iter()
-        .map(|picture| BookPage { picture, size })
+        .map(|picture| BookPage {
+            picture,
+            size,
+            words: &[],
+        })
         .collect();
     let book = write_book(&pages, None).unwrap();
     let has = |part: &[u8]| book.windows(part.len()).any(|window| window == part);
     assert!(has(&pictures[0]) && has(b"/Count 2") && has(b"/FlateDecode") && has(b"/DCTDecode"));
     let refused = |picture: &[u8], size| {
-        write_book(&[BookPage { picture, size }], None)
-            .unwrap_err()
-            .code()
+        let words = &[];
+        write_book(
+            &[BookPage {
+                picture,
+                size,
+                words,
+            }],
+            None,
+        )
+        .unwrap_err()
+        .code()
     };
     assert_eq!(refused(b"GIF89a", size), "UNSUPPORTED");
     assert_eq!(refused(&pictures[0], [1.0, 297.0]), "UNSUPPORTED");
@@ -629,6 +741,7 @@ fn books_take_pictures_as_they_are_and_refuse_others() {
             let page = BookPage {
                 picture: &picture[..length],
                 size,
+                words: &[],
             };
             let _ = write_book(&[page], None);
         }

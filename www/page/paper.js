@@ -1,5 +1,6 @@
 /** Paper sizes of flat pages: the most similar size, and the pictures of a PDF's pages, turned by right angles. */
 
+/** @import {Pixels} from '../pixels.js' */
 /** @typedef {keyof typeof PAPERS} PaperName */
 
 /** Width and height of paper sizes in millimetres. */
@@ -36,19 +37,25 @@ export async function pictureFiles(worker, flat, pages, quarters, paper, ink = f
   const pictures = [];
   for (const [from, to] of columns) {
     const { width, height, data } = turnPicture(columnsOf(flat, from, to), quarters);
+    const words = await textIn(new ImageData(data, width, height));
     const picture = await worker.writePhoto({ width, height, data }, { format: ink ? 'png' : 'jpeg' });
     const size = /** @type {[number, number]} */ (paper ? [...paper] : [width / flat.resolution, height / flat.resolution]);
-    pictures.push({ picture, size });
+    pictures.push({ picture, size, words });
   }
   return pictures;
 }
 
-/**
- * The columns `from` to `to` of a picture.
- * @param {Pixels} picture
- * @param {number} from
- * @param {number} to
- */
+/** The lines of text in a picture, where the browser recognises text; none elsewhere. @param {ImageData} image */
+async function textIn(image) {
+  if (!globalThis.TextDetector) return [];
+  const found = await new globalThis.TextDetector().detect(image).catch(() => []);
+  return found.flatMap(({ rawValue: text, boundingBox: { left, top, right, bottom } }) => {
+    const [x, y, end, foot] = [Math.max(0, left), Math.max(0, top), Math.min(image.width, right), Math.min(image.height, bottom)];
+    return x < end && y < foot ? [{ text, box: /** @type {const} */ ([x, y, end - x, foot - y]) }] : [];
+  });
+}
+
+/** The columns `from` to `to` of a picture. @param {Pixels} picture @param {number} from @param {number} to */
 function columnsOf({ width, height, data }, from, to) {
   if (to - from === width) return { width, height, data };
   const part = new Uint8ClampedArray(4 * (to - from) * height);
@@ -56,14 +63,7 @@ function columnsOf({ width, height, data }, from, to) {
   return { width: to - from, height, data: part };
 }
 
-/** @typedef {{ width: number, height: number, data: Uint8ClampedArray<ArrayBuffer> }} Pixels RGBA */
-
-/**
- * A picture turned clockwise.
- * @param {Pixels} picture
- * @param {number} quarters number of quarter turns
- * @returns {Pixels}
- */
+/** A picture turned clockwise. @param {Pixels} picture @param {number} quarters number of quarter turns @returns {Pixels} */
 export function turnPicture(picture, quarters) {
   if (quarters % 4 === 0) return picture;
   const { width, height, data } = picture;

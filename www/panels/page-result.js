@@ -178,13 +178,7 @@ export function pageResultPanel(api, session, book, onWritten) {
   });
 }
 
-/**
- * Paints another picture over the left part of a canvas.
- * @param {CanvasRenderingContext2D} context
- * @param {Picture} picture
- * @param {number} share of the canvas
- * @param {number} ratio device pixels per CSS pixel
- */
+/** Paints a picture over a share of a canvas, at its left. @param {CanvasRenderingContext2D} context @param {Picture} picture @param {number} share @param {number} ratio device pixels per CSS pixel */
 function paintBefore(context, picture, share, ratio) {
   const zoomed = context.getTransform();
   context.resetTransform();

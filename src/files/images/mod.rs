@@ -20,6 +20,7 @@ mod jpeg;
 mod no_data;
 mod npy;
 mod orientation;
+mod page_words;
 mod photo;
 mod photo_pdf;
 mod picture_data;
@@ -41,6 +42,7 @@ pub use depths::DepthEvidence;
 pub use extended::{NpzArray, npz_arrays, write_exr, write_tiff};
 pub use georeference::Georeference;
 pub use npy::write_npy;
+pub use page_words::BookWord;
 #[cfg(feature = "images")]
 pub use photo::decode_other_photo;
 pub use photo::{PhotoFile, decode_photo, decode_photo_basic};

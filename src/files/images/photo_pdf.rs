@@ -2,6 +2,7 @@
 
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 
+use super::page_words::{BookWord, Characters, FONT, write_words};
 use super::picture_data::{Compression, PictureData};
 use super::print::{PhotoOptions, PhotoRows, is_bilevel, write_photo, write_photo_jpeg};
 use crate::error::{Error, Result};
@@ -18,6 +19,9 @@ pub struct BookPage<'a> {
     pub picture: &'a [u8],
     /// Width and height of the page, in millimetres.
     pub size: [f64; 2],
+    /// Words in the picture, in the order in which they are read. They lie over it as text that is not seen, so that
+    /// the page can be searched and copied from.
+    pub words: &'a [BookWord<'a>],
 }
 
 /// Writes a photo as a PDF file of one page, which the photo fills as a JPEG, or without loss if all its pixels are
@@ -48,6 +52,7 @@ pub fn write_photo_pdf(
     let page = BookPage {
         picture: &picture,
         size,
+        words: &[],
     };
     write_book(&[page], title)
 }
@@ -56,8 +61,9 @@ pub fn write_photo_pdf(
 ///
 /// # Errors
 /// [`Error::Empty`] without pages; [`Error::Unsupported`] if a side of a page is below 2 mm or above 5.08 m, the
-/// format's limit, and for pictures that are neither JPEG nor PNG without transparency; [`Error::Format`] for a damaged
-/// picture.
+/// format's limit, for pictures that are neither JPEG nor PNG without transparency, and for words outside of their
+/// picture; [`Error::Format`] for a damaged picture; [`Error::TooLarge`] if words have more than 65 535 different
+/// characters.
 pub fn write_book(pages: &[BookPage<'_>], title: Option<&str>) -> Result<Vec<u8>> {
     if pages.is_empty() {
         return Err(Error::Empty { what: "book" });
@@ -66,8 +72,12 @@ pub fn write_book(pages: &[BookPage<'_>], title: Option<&str>) -> Result<Vec<u8>
     let first = |number: usize| 3 + OBJECTS_PER_PAGE * number as i32;
     let mut pdf = Pdf::new();
     pdf.catalog(catalog).pages(tree);
+    let [info, font] = [0, 1].map(|k| Ref::new(first(pages.len()) + k));
+    let characters = Characters::new(pages.iter().flat_map(|page| page.words))?;
+    if !characters.is_empty() {
+        characters.write_font(&mut pdf, font);
+    }
     if let Some(title) = title {
-        let info = Ref::new(first(pages.len()));
         pdf.document_info(info).title(TextStr(title));
     }
     pdf.pages(tree)
@@ -84,7 +94,12 @@ pub fn write_book(pages: &[BookPage<'_>], title: Option<&str>) -> Result<Vec<u8>
             .parent(tree)
             .media_box(Rect::new(0.0, 0.0, points(width), points(height)))
             .contents(content);
-        entry.resources().x_objects().pair(name, image);
+        let mut resources = entry.resources();
+        resources.x_objects().pair(name, image);
+        if !page.words.is_empty() && !characters.is_empty() {
+            resources.fonts().pair(FONT, font);
+        }
+        resources.finish();
         entry.finish();
         let [wide, tall] = picture.size.map(f64::from);
         let scale = (width / wide).min(height / tall);
@@ -93,6 +108,13 @@ pub fn write_book(pages: &[BookPage<'_>], title: Option<&str>) -> Result<Vec<u8>
         drawn.save_state();
         drawn.transform([points(scale * wide), 0.0, 0.0, points(scale * tall), x, y]);
         drawn.x_object(name).restore_state();
+        if !page.words.is_empty() {
+            let to_page = |[column, row]: [f64; 2]| {
+                [x + points(scale * column), y + points(scale * (tall - row))]
+            };
+            let words = (number + 1, page.words);
+            write_words(&mut drawn, words, &characters, [wide, tall], to_page)?;
+        }
         pdf.stream(content, &drawn.finish());
         write_picture(&mut pdf, image, &picture);
     }

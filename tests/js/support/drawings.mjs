@@ -105,6 +105,24 @@ export async function readPdfPicture(file) {
   return found;
 }
 
+/**
+ * The words on a page of a PDF file, each with its box on the page, in millimetres from the upper left corner.
+ * @param {Uint8Array} file
+ * @param {number} number of the page, from 1
+ */
+export async function readPdfWords(file, number) {
+  const task = getDocument({ data: new Uint8Array(file), verbosity: 0 });
+  const page = await (await task.promise).getPage(number);
+  const { items } = await page.getTextContent();
+  const words = items.flatMap((item) => {
+    if (!('str' in item) || item.str.trim() === '') return [];
+    const { str, transform: [, , , , left, bottom], width, height } = item;
+    return [{ text: str, box: [left, page.view[3] - bottom - height, width, height].map((side) => side * MM) }];
+  });
+  await task.destroy();
+  return words;
+}
+
 /** Points along a cubic Bézier curve, but its first. @param {Point[]} controls */
 function along([p, q, r, s]) {
   return Array.from({ length: FINE }, (_, i) => {

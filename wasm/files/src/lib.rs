@@ -1,6 +1,6 @@
 //! Reading and writing of PNG, NPY, OBJ and photo files, and colours of vertices from photos.
 
-use js_sys::{Float32Array, Int32Array, Uint8Array};
+use js_sys::{Float32Array, Float64Array, Int32Array, Uint8Array};
 use serde::Deserialize;
 use serde_wasm_bindgen::{from_value, preserve};
 use wasm_bindgen::prelude::*;
@@ -9,8 +9,8 @@ use developable::Error;
 use developable::checks::{check_count, check_photo};
 use developable::dewarp::{self, Extent};
 use developable::files::images::{
-    BookPage, PhotoOptions, PhotoRows, decode_basic, decode_photo_basic, format_name, write_book,
-    write_npy, write_photo, write_photo_jpeg, write_photo_pdf, write_png,
+    BookPage, BookWord, PhotoOptions, PhotoRows, decode_basic, decode_photo_basic, format_name,
+    write_book, write_npy, write_photo, write_photo_jpeg, write_photo_pdf, write_png,
 };
 use developable::files::wavefront::{write_mtl, write_obj};
 use developable_wasm::Result;
@@ -191,12 +191,17 @@ pub fn write_photo_file(
     Ok(file.as_slice().into())
 }
 
-/// One page of a PDF file, as the function `asBook` in `pkg/` passes it.
+/// One page of a PDF file, as `writeBook` in `pkg/direct.js` passes it.
 #[derive(Deserialize)]
 struct BookPageInput {
     #[serde(with = "preserve")]
     picture: Uint8Array,
     size: [f64; 2],
+    /// Texts of the words in the picture.
+    texts: Vec<String>,
+    /// Boxes of these words, four numbers each.
+    #[serde(with = "preserve")]
+    boxes: Float64Array,
 }
 
 /// Options of `writeBook`.
@@ -214,10 +219,19 @@ pub fn write_book_file(pages: JsValue, options: JsValue) -> Result<Uint8Array> {
     for page in &given {
         pictures.push(copied(&page.picture)?);
     }
-    let pages: Vec<BookPage<'_>> = (pictures.iter().zip(&given))
-        .map(|(picture, BookPageInput { size, .. })| BookPage {
+    let words: Vec<Vec<BookWord<'_>>> = (given.iter())
+        .map(|BookPageInput { texts, boxes, .. }| {
+            let boxes = boxes.to_vec();
+            (texts.iter().zip(boxes.as_chunks().0))
+                .map(|(text, &bounds)| BookWord { text, bounds })
+                .collect()
+        })
+        .collect();
+    let pages: Vec<BookPage<'_>> = (pictures.iter().zip(&given).zip(&words))
+        .map(|((picture, BookPageInput { size, .. }), words)| BookPage {
             picture,
             size: *size,
+            words,
         })
         .collect();
     Ok(write_book(&pages, title.as_deref())?.as_slice().into())

@@ -19,6 +19,10 @@ const CORRELATED_LAMBDA_NOISE: f64 = 14.0;
 /// λ of an input that is free of noise.
 const WITHOUT_NOISE: Lambda = Lambda::Big;
 
+/// Minimum product `σ √A` of noise, as a share of the height range; what is less, smooth bends of a shape have, too
+/// (`benches/scenes.md`, One constant at a time).
+const MIN_NOISE_SHARE: f64 = 3e-4;
+
 /// Maximum standard deviation of smooth noise of heights that no camera has measured, as a share of the height range. What looks
 /// like larger noise may be the shape of a terrain, which is alike at every scale
 /// (`benches/scenes.md`, One constant at a time).
@@ -95,9 +99,10 @@ pub(crate) fn initial_options(
         };
         product / (noise.product * scale * scale)
     });
+    let is_noise = noise.is_some_and(|noise| noise.white_equivalent > MIN_NOISE_SHARE * range);
     let lambda = match lambda {
         None => Lambda::Medium,
-        Some(lambda) if lambda <= *LAMBDA_RANGE.end() => {
+        Some(lambda) if is_noise && lambda <= *LAMBDA_RANGE.end() => {
             choice.reason = LambdaReason::Noise;
             Lambda::Value(lambda.max(*LAMBDA_RANGE.start()))
         }

@@ -248,6 +248,7 @@ sharedTest('what cannot be read gets a message each, and the previous result sta
     gap: await reported(page, 'Gap'),
     result: await page.locator('#result-caption').innerText(),
   });
+  await page.locator('#page[data-phase="idle"]').waitFor();
   const before = await shown();
   // Wherever the page is scrolled to.
   await page.evaluate(() => window.scrollTo(0, document.documentElement.scrollHeight));

@@ -592,22 +592,28 @@ fn black_and_white_photos_have_one_bit_for_each_pixel() {
     assert_eq!(read_png_header(&file), (37, 11, 8, 2));
 }
 
+fn one_page_book(
+    picture: &[u8],
+    size: [f64; 2],
+    words: &[BookWord<'_>],
+) -> developable::Result<Vec<u8>> {
+    write_book(
+        &[BookPage {
+            picture,
+            size,
+            words,
+        }],
+        None,
+    )
+}
+
 #[test]
 fn words_of_a_book_lie_over_their_boxes_unseen() {
     let photo = Photo::new(40, 30, &[255; 4800]).unwrap();
     let picture = &write_photo_jpeg(&photo, &PhotoOptions::default()).unwrap()[..];
     // A pixel is a point, and 20 points are below the picture.
     let size = [40.0, 70.0].map(|points| points * 25.4 / 72.0);
-    let write = |words: &[BookWord<'_>]| {
-        write_book(
-            &[BookPage {
-                picture,
-                size,
-                words,
-            }],
-            None,
-        )
-    };
+    let write = |words: &[BookWord<'_>]| one_page_book(picture, size, words);
     let word = |text, bounds| BookWord { text, bounds };
     let words = [
         word("aZ", [10.0, 5.0, 20.0, 4.0]),
@@ -715,19 +721,7 @@ fn books_take_pictures_as_they_are_and_refuse_others() {
     let book = write_book(&pages, None).unwrap();
     let has = |part: &[u8]| book.windows(part.len()).any(|window| window == part);
     assert!(has(&pictures[0]) && has(b"/Count 2") && has(b"/FlateDecode") && has(b"/DCTDecode"));
-    let refused = |picture: &[u8], size| {
-        let words = &[];
-        write_book(
-            &[BookPage {
-                picture,
-                size,
-                words,
-            }],
-            None,
-        )
-        .unwrap_err()
-        .code()
-    };
+    let refused = |picture: &[u8], size| one_page_book(picture, size, &[]).unwrap_err().code();
     assert_eq!(refused(b"GIF89a", size), "UNSUPPORTED");
     assert_eq!(refused(&pictures[0], [1.0, 297.0]), "UNSUPPORTED");
     assert_eq!(refused(&pictures[0], [f64::NAN, 297.0]), "UNSUPPORTED");

@@ -16,7 +16,7 @@ pub struct BookWord<'a> {
 }
 
 /// Name of the font, in the resources of a page.
-pub(super) const FONT: Name<'_> = Name(b"F");
+pub(super) const FONT_RESOURCE: Name<'_> = Name(b"F");
 
 /// Name by which programs know a font whose glyphs are empty, as text over scanned pages has it.
 const FONT_NAME: Name<'_> = Name(b"GlyphLessFont");
@@ -31,7 +31,7 @@ const CHARACTER_WIDTH: u16 = 500;
 const MAX_BOX_OVERHANG: f64 = 1.0;
 
 /// Character collection of the font, whose numbers mean nothing by themselves.
-const COLLECTION: SystemInfo<'_> = SystemInfo {
+const CHARACTER_COLLECTION: SystemInfo<'_> = SystemInfo {
     registry: Str(b"Adobe"),
     ordering: Str(b"Identity"),
     supplement: 0,
@@ -91,7 +91,7 @@ impl Characters {
         pdf.cid_font(descendant)
             .subtype(CidFontType::Type2)
             .base_font(FONT_NAME)
-            .system_info(COLLECTION)
+            .system_info(CHARACTER_COLLECTION)
             .font_descriptor(descriptor)
             .default_width(CHARACTER_WIDTH.into())
             .cid_to_gid_map_stream(glyphs);
@@ -184,7 +184,7 @@ pub(super) fn write_words(
             return Err(unsupported("PDF", reason));
         }
         content
-            .set_font(FONT, upper - y)
+            .set_font(FONT_RESOURCE, upper - y)
             .set_horizontal_scaling(stretch)
             .set_text_matrix([1.0, 0.0, 0.0, 1.0, x, y])
             .show(Str(&characters.encode(text)));

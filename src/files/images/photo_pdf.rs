@@ -2,7 +2,7 @@
 
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 
-use super::page_words::{BookWord, Characters, FONT, write_words};
+use super::page_words::{BookWord, Characters, FONT_RESOURCE, write_words};
 use super::picture_data::{Compression, PictureData};
 use super::print::{PhotoOptions, PhotoRows, is_bilevel, write_photo, write_photo_jpeg};
 use crate::error::{Error, Result};
@@ -97,7 +97,7 @@ pub fn write_book(pages: &[BookPage<'_>], title: Option<&str>) -> Result<Vec<u8>
         let mut resources = entry.resources();
         resources.x_objects().pair(name, image);
         if !page.words.is_empty() && !characters.is_empty() {
-            resources.fonts().pair(FONT, font);
+            resources.fonts().pair(FONT_RESOURCE, font);
         }
         resources.finish();
         entry.finish();

@@ -43,7 +43,10 @@ pub(super) fn apply_bend_allowance(
         }
         let (direction, angle) = (fold.seam.direction, fold.seam.angle);
         let zone = match fold.bend {
-            Some(bend) => bending.smooth_zone(direction, angle, options.scale * bend.radius),
+            Some(bend) => {
+                let radii = [bend.radius, bend.chord_radius].map(|radius| options.scale * radius);
+                bending.smooth_zone(direction, angle, radii)
+            }
             None => bending.zone(direction, angle),
         };
         let zone = zone.map(|millimetres| millimetres / options.scale);

@@ -64,11 +64,16 @@ impl Bending {
         ]
     }
 
-    /// The same for one fold of a smooth bend, whose upper side has a given radius in millimetres: half of the chord to the next
-    /// fold becomes half of the arc between them on the neutral line.
-    pub(super) fn smooth_zone(&self, direction: Direction, angle: f64, radius: f64) -> [f64; 2] {
+    /// The same for one fold of a smooth bend, whose upper side has a given radius and chords of a given length for each radian, in
+    /// millimetres: the chords that belong to the fold become the arc on the neutral line.
+    pub(super) fn smooth_zone(
+        &self,
+        direction: Direction,
+        angle: f64,
+        [radius, chord_radius]: [f64; 2],
+    ) -> [f64; 2] {
         let neutral = self.inner_radius(direction, radius) + self.k_factor * self.thickness;
-        [radius * (0.5 * angle).sin(), 0.5 * angle * neutral]
+        [chord_radius, neutral].map(|radius| 0.5 * angle * radius)
     }
 
     /// Computes the inner radius of a smooth bend whose upper side has a given radius, in millimetres.

@@ -137,6 +137,9 @@ pub struct Bend {
     pub angle: f64,
     /// Radius of the surface in the bend, in the surface's units; the mean one of a cone.
     pub radius: f64,
+    /// Length of the flat facets across the bend for each radian that it turns, in the surface's units: the radius of a circle, and
+    /// a little less of its chords.
+    pub chord_radius: f64,
     /// Whether the fold is the one in the middle of the bend.
     pub is_middle: bool,
 }

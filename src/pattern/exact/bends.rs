@@ -9,32 +9,41 @@ use crate::math::planar::Point2;
 use crate::pattern::sheets::{Bend, Fold};
 use crate::scene::polyhedron::Polyhedron;
 
-/// Radius of each patch that is a bend: of the circle whose chords its facets are.
-pub(super) fn radii(solid: &Polyhedron, patches: &FlatPatches) -> Vec<Option<f64>> {
-    let facets = |side: u32| [side, solid.twins[side as usize]].map(|s| solid.facet(s) as usize);
-    let steps = || solid.inner_sides().filter(|side| solid.is_step(*side));
+/// Radius of each patch that is a bend: of the circle whose chords its facets are. Beside it the length of these chords for each radian
+/// that the bend turns.
+pub(super) fn radii(solid: &Polyhedron, patches: &FlatPatches) -> Vec<Option<[f64; 2]>> {
+    let facets = |side: u32| [side, solid.twins[side as usize]].map(|s| solid.facet(s));
     let mut lengths = vec![0.0; solid.normals.len()];
-    for side in steps() {
-        for facet in facets(side) {
-            lengths[facet] += solid.length(side);
+    for side in solid.inner_sides() {
+        let [a, b] = facets(side);
+        for (own, _) in [(a, b), (b, a)]
+            .iter()
+            .filter(|(own, other)| patches.goes_on(*own, *other))
+        {
+            lengths[*own as usize] += solid.length(side);
         }
     }
     // A facet of a bend has a line on either side.
-    let width = |facet: usize| 2.0 * solid.areas[facet] / lengths[facet];
+    let width = |facet: u32| 2.0 * solid.areas[facet as usize] / lengths[facet as usize];
     // Of each patch's inner lines the lengths, and the sums of these times the angles and times the mean widths of both sides.
     let mut inner = vec![[0.0; 3]; patches.areas.len()];
-    for side in steps() {
+    for side in solid.inner_sides() {
         let [a, b] = facets(side);
-        if patches.of[a] == patches.of[b] {
+        if patches.of[a as usize] == patches.of[b as usize] {
             let (long, angle) = (solid.length(side), solid.angle(side).abs());
             let of_line = [1.0, angle, 0.5 * (width(a) + width(b))];
-            let sums = &mut inner[patches.of[a] as usize];
+            let sums = &mut inner[patches.of[a as usize] as usize];
             *sums = std::array::from_fn(|k| sums[k] + long * of_line[k]);
         }
     }
     (inner.iter())
         .map(|[long, turned, wide]| {
-            (*long > 0.0).then(|| 0.5 * (wide / long) / (0.5 * turned / long).sin())
+            (*long > 0.0).then(|| {
+                [
+                    0.5 * (wide / long) / (0.5 * turned / long).sin(),
+                    wide / turned,
+                ]
+            })
         })
         .collect()
 }
@@ -42,16 +51,16 @@ pub(super) fn radii(solid: &Polyhedron, patches: &FlatPatches) -> Vec<Option<f64
 /// Difference of a sum of fold angles from half a turn, in radians, that is rounding.
 const ROUNDING_ANGLE: f64 = 1e-3;
 
-/// Tells the folds of each bend of a sheet which bend that is; `bend_of` gives the patch and the radius of a fold's bend.
-/// What is rolled by more than half a turn is no bend.
-pub(super) fn mark_bends(folds: &mut [Fold], bend_of: impl Fn(&Fold) -> Option<(u32, f64)>) {
-    let mut of: FxHashMap<u32, (f64, Vec<usize>)> = FxHashMap::default();
+/// Tells the folds of each bend of a sheet which bend that is; `bend_of` gives the patch of a fold's bend, with its
+/// radius and the length of its chords for each radian. What is rolled by more than half a turn is no bend.
+pub(super) fn mark_bends(folds: &mut [Fold], bend_of: impl Fn(&Fold) -> Option<(u32, [f64; 2])>) {
+    let mut of: FxHashMap<u32, ([f64; 2], Vec<usize>)> = FxHashMap::default();
     for (k, fold) in folds.iter().enumerate() {
-        if let Some((patch, radius)) = bend_of(fold) {
-            of.entry(patch).or_insert((radius, Vec::new())).1.push(k);
+        if let Some((patch, radii)) = bend_of(fold) {
+            of.entry(patch).or_insert((radii, Vec::new())).1.push(k);
         }
     }
-    for (patch, (radius, mut own)) in of {
+    for (patch, ([radius, chord_radius], mut own)) in of {
         let middle = |k: usize| {
             let points = &folds[k].points;
             let [from, to] = [points[0], points[points.len() - 1]].map(|[x, y]| Point2::new(x, y));
@@ -84,6 +93,7 @@ pub(super) fn mark_bends(folds: &mut [Fold], bend_of: impl Fn(&Fold) -> Option<(
                 patch,
                 angle,
                 radius,
+                chord_radius,
                 is_middle,
             });
         }

@@ -6,6 +6,7 @@ use super::net::Net;
 use crate::error::{Error, Result};
 use crate::math::index::NO_INDEX;
 use crate::math::union_find::UnionFind;
+use crate::scene::half_edges::half_edge_ends;
 use crate::scene::polyhedron::Polyhedron;
 
 /// Largest ratio of the curvatures of neighbouring facets of a bend. `benches/patterns.md` has what others give.
@@ -14,24 +15,22 @@ const MAX_BEND_CURVATURE_RATIO: f64 = 3.0;
 /// The patch of each facet: a facet alone, or neighbouring facets of one bend.
 pub(super) struct FlatPatches {
     pub of: Vec<u32>,
-    /// Area and vertices of each patch.
+    /// Area of each patch.
     pub areas: Vec<f64>,
+    /// The facets on both sides of each facet that is part of a bend, beyond the lines along which it is.
+    bent: Vec<Option<[u32; 2]>>,
 }
 
 impl FlatPatches {
     pub(super) fn new(solid: &Polyhedron, net: &Net) -> Result<FlatPatches> {
-        let is_bent = bent_facets(solid);
+        let bent = bent_facets(solid, net);
+        let goes_on = |from, to| goes_on(&bent, from, to);
         let mut forest = UnionFind::new("facets", solid.normals.len())?;
         // The folds of bends, in an order in which a bend is known as a path.
-        let folds = solid.inner_sides().filter(|side| {
-            net.is_closed(*side)
-                && solid.is_step(*side)
-                && [*side, solid.twins[*side as usize]]
-                    .iter()
-                    .all(|s| is_bent[solid.facet(*s) as usize])
-        });
+        let folds = solid.inner_sides().filter(|side| net.is_closed(*side));
         let folds: Vec<[u32; 2]> = folds
             .map(|side| [side, solid.twins[side as usize]].map(|s| solid.facet(s)))
+            .filter(|[a, b]| goes_on(*a, *b) && goes_on(*b, *a))
             .collect();
         folds.iter().for_each(|[a, b]| forest.union(*a, *b));
         // A bend all around is cut along one line, and both sides of a cut belong to different patches: it is halved.
@@ -81,11 +80,17 @@ impl FlatPatches {
                 .map(|f| numbers[halves.find(f) as usize])
                 .collect(),
             areas: order.iter().map(|root| sums[*root as usize]).collect(),
+            bent,
         })
     }
 }
 
 impl FlatPatches {
+    /// Whether a facet is part of a bend that goes on or ends at another facet.
+    pub(super) fn goes_on(&self, from: u32, to: u32) -> bool {
+        goes_on(&self.bent, from, to)
+    }
+
     /// Pairs of facets on both sides of the edges between pairs of patches.
     pub(super) fn facets_between(
         &self,
@@ -117,31 +122,71 @@ impl FlatPatches {
     }
 }
 
-/// Whether each facet is part of a bend: it meets two others at small angles of one sign and the rest at large ones, and is curved
-/// about as one of the two. Lone facets may be any polyhedron's, and a face between two bends is far less curved than both.
-fn bent_facets(solid: &Polyhedron) -> Vec<bool> {
-    let steps = solid.bend_steps();
-    let mut lengths = vec![0.0; steps.len()];
+fn goes_on(bent: &[Option<[u32; 2]>], from: u32, to: u32) -> bool {
+    bent[from as usize].is_some_and(|beyond| beyond.contains(&to))
+}
+
+/// A line along which a facet meets another one at a small angle.
+struct Step {
+    other: u32,
+    angle: f64,
+    length: f64,
+    ends: [u32; 2],
+    is_closed: bool,
+}
+
+/// The two lines along which each facet that is part of a bend goes on, as the facets beyond them; `None` for other facets. Along both
+/// it bends at a small angle of one sign, about as much as the facet beyond one of them: lone facets may be any polyhedron's, and a face
+/// between two bends is far less curved than both. If it meets more than two facets at small angles, as a vase does above and
+/// below, those are opposite sides, along which the sheet is folded rather than cut.
+fn bent_facets(solid: &Polyhedron, net: &Net) -> Vec<Option<[u32; 2]>> {
+    let mut steps: Vec<Vec<Step>> = Vec::new();
+    steps.resize_with(solid.normals.len(), Vec::new);
     for side in solid.inner_sides().filter(|side| solid.is_step(*side)) {
-        for side in [side, solid.twins[side as usize]] {
-            lengths[solid.facet(side) as usize] += solid.length(side);
+        let twin = solid.twins[side as usize];
+        for (own, other) in [(side, twin), (twin, side)] {
+            let (own, other) = (&mut steps[solid.facet(own) as usize], solid.facet(other));
+            match own.iter_mut().find(|step| step.other == other) {
+                Some(step) => step.length += solid.length(side),
+                None => own.push(Step {
+                    other,
+                    angle: solid.angle(side),
+                    length: solid.length(side),
+                    ends: half_edge_ends(&solid.triangles, side),
+                    is_closed: net.is_closed(side),
+                }),
+            }
         }
     }
     // A chord of a circle turns by half of the angles at its two ends, along its width.
-    let curvature = |facet: usize| match steps[facet][..] {
-        [(_, a), (_, b)] if a * b > 0.0 => (a + b) * lengths[facet] / solid.areas[facet],
-        _ => 0.0,
+    let lines = |facet: usize| {
+        let own = &steps[facet];
+        let pairs = (0..own.len()).flat_map(|k| (0..k).map(move |j| [&own[j], &own[k]]));
+        let is_opposite = |[a, b]: &[&Step; 2]| a.ends.iter().all(|v| !b.ends.contains(v));
+        let mut pairs = pairs.filter(|pair| own.len() == 2 || is_opposite(pair));
+        let folded = |pair: &[&Step; 2]| pair.iter().filter(|step| step.is_closed).count();
+        let first = pairs.next()?;
+        let [a, b] = pairs.fold(first, |best, pair| {
+            if folded(&pair) > folded(&best) {
+                pair
+            } else {
+                best
+            }
+        });
+        let curvature = (a.angle + b.angle) * (a.length + b.length) / solid.areas[facet];
+        (a.angle * b.angle > 0.0).then_some(([a.other, b.other], curvature))
     };
-    let curvatures: Vec<f64> = (0..steps.len()).map(curvature).collect();
+    let lines: Vec<Option<([u32; 2], f64)>> = (0..steps.len()).map(lines).collect();
+    let curvature = |facet: u32| lines[facet as usize].map_or(0.0, |(_, curvature)| curvature);
     let is_alike = |a: f64, b: f64| {
         a * b > 0.0 && a.abs().max(b.abs()) <= MAX_BEND_CURVATURE_RATIO * a.abs().min(b.abs())
     };
-    (steps.iter().zip(&curvatures))
-        .map(|(own, a)| {
-            own.iter()
-                .any(|(other, _)| is_alike(*a, curvatures[*other as usize]))
-        })
-        .collect()
+    let bent = lines.iter().map(|own| {
+        let (beyond, own) = (*own)?;
+        let is_bent = beyond.iter().any(|other| is_alike(own, curvature(*other)));
+        is_bent.then_some(beyond)
+    });
+    bent.collect()
 }
 
 /// The facets of a bend up to its middle, from one side of its cut on.

@@ -11,7 +11,7 @@ use crate::math::union_find::UnionFind;
 use crate::pattern::flat_mesh::FlatMesh;
 use crate::pattern::{Direction, MeshPattern, Missing, Seam, Sheet};
 use crate::scene::half_edges::half_edge_ends;
-use crate::scene::polyhedron::{MAX_BEND_STEP, Polyhedron};
+use crate::scene::polyhedron::Polyhedron;
 use crate::shape::patches::chains::chains;
 use crate::shape::patches::{Crease, Patch};
 
@@ -39,6 +39,13 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
     let sides = 0..solid.twins.len() as u32;
     let spacing = sides.map(|side| solid.length(side)).sum::<f64>() / edges;
     let radii = radii(solid, patches);
+    // Folds along which bends go on or end.
+    let mut is_bend_line = vec![false; creases.len()];
+    for side in solid.inner_sides() {
+        let [a, b] = [side, solid.twins[side as usize]].map(|s| solid.facet(s));
+        is_bend_line[flat.seam_of[side as usize] as usize] |=
+            patches.goes_on(a, b) || patches.goes_on(b, a);
+    }
     let area = |facets: &[u32]| facets.iter().map(|f| solid.areas[*f as usize]).sum::<f64>();
     let sheet = |facets: &Vec<u32>| {
         let mut is_own = vec![false; solid.normals.len()];
@@ -52,7 +59,7 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
         mark_bends(&mut sheet.folds, |fold| {
             let beside = fold.seam.patches.into_iter();
             let mut bent = beside.filter_map(|p| Some((p, radii[p as usize]?)));
-            bent.next().filter(|_| fold.seam.angle <= MAX_BEND_STEP)
+            bent.next().filter(|_| is_bend_line[fold.seam.crease])
         });
         Sheet {
             spacing,

@@ -64,7 +64,7 @@ impl DrawnSheet {
         let out = options.allowance + 0.5 * options.kerf;
         let name = format!("Sheet {}", number + 1);
         let curves = match out > 0.0 {
-            true => offset_outwards(&plain, out).ok_or_else(|| Error::Unsupported {
+            true => offset_outwards(&plain, out, sheet.exact).ok_or_else(|| Error::Unsupported {
                 format: "pattern",
                 reason: format!(
                     "the outline of {name} would cross itself {} mm further out; choose a smaller kerf and allowance",

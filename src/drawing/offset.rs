@@ -1,5 +1,6 @@
 //! Offsets the outlines of sheets outwards, by half the kerf and the allowance.
 
+use super::circle::with_arcs;
 use super::curve::{CIRCLE_TOLERANCE_MM, Curve, MIN_CORNER_TURN};
 use super::line::FLATTENING_TOLERANCE_MM;
 use super::smooth::smooth;
@@ -19,8 +20,9 @@ const MAX_MITRE_FACTOR: f64 = 2.0;
 const MAX_LOOP_FACTOR: f64 = 8.0;
 
 /// Offsets the closed lines around a sheet outwards by a distance in millimetres. Loops in which an offset line crosses
-/// itself, as in a slit narrower than the offset, are cut off. `None` if lines cross nevertheless.
-pub(super) fn offset_outwards(curves: &[Curve], distance: f64) -> Option<Vec<Curve>> {
+/// itself, as in a slit narrower than the offset, are cut off. Around an `exact` sheet straight lines and arcs stay what they are.
+/// `None` if lines cross nevertheless.
+pub(super) fn offset_outwards(curves: &[Curve], distance: f64, exact: bool) -> Option<Vec<Curve>> {
     let mut moved = Vec::new();
     for curve in curves {
         let mut ring: Vec<Point> = (curve.points(CIRCLE_TOLERANCE_MM).into_iter())
@@ -56,11 +58,11 @@ pub(super) fn offset_outwards(curves: &[Curve], distance: f64) -> Option<Vec<Cur
     }
     let curve = |ring: Vec<Point>| {
         let closed = ring.iter().chain(ring.first());
-        smooth(
-            &closed.map(|p| [p.re, p.im]).collect::<Vec<_>>(),
-            FLATTENING_TOLERANCE_MM,
-            OFFSET_DETAIL_MM,
-        )
+        let closed: Vec<[f64; 2]> = closed.map(|p| [p.re, p.im]).collect();
+        match exact {
+            true => with_arcs(&closed),
+            false => smooth(&closed, FLATTENING_TOLERANCE_MM, OFFSET_DETAIL_MM),
+        }
     };
     Some(moved.into_iter().map(curve).collect())
 }
@@ -123,7 +125,7 @@ mod tests {
             Curve::through(&hole),
             Curve::through(&small),
         ];
-        let found = offset_outwards(&all, 2.0).unwrap();
+        let found = offset_outwards(&all, 2.0, false).unwrap();
         // The smallest hole has been filled.
         assert_eq!(found.len(), 2);
         for (curve, [low, high]) in found.iter().zip([[-2.0, 42.0], [12.0, 28.0]]) {
@@ -139,6 +141,30 @@ mod tests {
     }
 
     #[test]
+    fn a_round_hole_stays_a_circle_and_a_plate_has_four_lines() {
+        let plate = [
+            [0.0, 0.0],
+            [60.0, 0.0],
+            [60.0, 40.0],
+            [0.0, 40.0],
+            [0.0, 0.0],
+        ];
+        let hole: Vec<[f64; 2]> = (0..=48)
+            .map(|k| (-std::f64::consts::TAU * f64::from(k % 48) / 48.0).sin_cos())
+            .map(|(sin, cos)| [30.0 + 8.0 * cos, 20.0 + 8.0 * sin])
+            .collect();
+        let all = [with_arcs(&plate), with_arcs(&hole)];
+        let found = offset_outwards(&all, 0.1, true).unwrap();
+        assert_eq!(found[0].pieces().count(), 4);
+        let (centre, radius) = found[1].circle().unwrap();
+        assert!((radius - 7.9).abs() < 1e-3, "{radius}");
+        assert!(
+            (centre[0] - 30.0).hypot(centre[1] - 20.0) < 1e-3,
+            "{centre:?}"
+        );
+    }
+
+    #[test]
     fn a_slit_that_is_narrower_closes() {
         // A square with a slit from the right to its middle, one wide.
         let line = [
@@ -151,12 +177,12 @@ mod tests {
             [0.0, 40.0],
             [0.0, 0.0],
         ];
-        let found = offset_outwards(&[Curve::through(&line)], 2.0).unwrap();
+        let found = offset_outwards(&[Curve::through(&line)], 2.0, false).unwrap();
         assert_eq!(found.len(), 1);
         let around = polyline_length(&found[0].points(0.01));
         assert!((around - 4.0 * 44.0).abs() < 2.0, "{around}");
         // A beam's width leaves most of it.
-        let found = offset_outwards(&[Curve::through(&line)], 0.1).unwrap();
+        let found = offset_outwards(&[Curve::through(&line)], 0.1, false).unwrap();
         let around = polyline_length(&found[0].points(0.01));
         assert!(
             (around - (4.0 * 40.2 + 2.0 * 16.0 - 1.0)).abs() < 4.0,

@@ -126,8 +126,8 @@ function tell(task, { report }, mesh) {
   if (report.stopReason === 'noNoise') {
     say(`${task.input} has no noise: it is left as it is (--lambda smooths it all the same)`);
   } else if (task.command !== 'fit') {
-    const noise = report.sigma === undefined ? '' : ` with noise of ${Number(report.sigma.toPrecision(2))} in the file's unit`;
-    say(`${task.input} is taken for a scan${noise}, and fitted first (--as-is leaves its vertices where they are)`);
+    const off = report.sigma === undefined ? '' : `; its vertices are off a smooth surface by ${Number(report.sigma.toPrecision(2))} in the file's unit`;
+    say(`${task.input} has no exact faces, so that it is fitted first${off} (--as-is leaves its vertices where they are)`);
   }
   if (report.stopReason === 'maxIterations') {
     toStderr('developable: warning: stopped before the wanted gap; --max-iterations allows more\n');

@@ -12,7 +12,7 @@ use super::offset::offset_outwards;
 use super::options::DrawingOptions;
 use super::pack::Place;
 use super::sheet::{DrawnSheet, PrintedTriangle};
-use super::tabs::add_tabs;
+use super::tabs::{SeamSides, add_tabs};
 use crate::error::{Error, Result, rounded};
 use crate::pattern::{Seam, Sheet};
 
@@ -44,6 +44,7 @@ pub(super) struct SeamAnnotations {
     pub marks: BTreeMap<usize, usize>,
     /// Creases whose tabs are on the side of the patch with the higher number.
     pub swapped: BTreeSet<usize>,
+    pub sides: SeamSides,
 }
 
 impl DrawnSheet {
@@ -57,10 +58,11 @@ impl DrawnSheet {
             letters,
             marks,
             swapped,
+            sides,
         }: &'a SeamAnnotations,
     ) -> Result<(Self, Vec<&'a str>)> {
         let scale = options.scale;
-        let (plain, flaps) = add_tabs(&lines.outlines, options.tabs, swapped);
+        let (plain, flaps) = add_tabs(&lines.outlines, options.tabs, swapped, sides);
         let out = options.allowance + 0.5 * options.kerf;
         let name = format!("Sheet {}", number + 1);
         let curves = match out > 0.0 {

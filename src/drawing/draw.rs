@@ -12,7 +12,7 @@ use super::options::{DrawingOptions, MAX_SIZE};
 use super::pack::{Place, pack_rows};
 use super::pages::{Arranged, MAX_PAGES, Pages, Stock, arrange_on_pages, page_count};
 use super::sheet::DrawnSheet;
-use super::tabs::swapped_tabs;
+use super::tabs::{SeamSides, swapped_tabs};
 use super::totals::{Totals, summary};
 use crate::error::{Error, Result, positive};
 use crate::pattern::{Missing, Sheet};
@@ -89,13 +89,13 @@ impl Drawing {
             .collect::<Result<Vec<_>>>()?;
         let lines = matched_lines(sheets, &options);
         let marks = options.marks.map(|distance| mark_counts(&lines, distance));
+        let outlines: Vec<_> = lines.iter().map(|own| &own.outlines[..]).collect();
+        let sides = SeamSides::new(&outlines);
         let named = SeamAnnotations {
             letters,
             marks: marks.unwrap_or_default(),
-            swapped: {
-                let outlines: Vec<_> = lines.iter().map(|own| &own.outlines[..]).collect();
-                swapped_tabs(&outlines, tabs)
-            },
+            swapped: swapped_tabs(&outlines, tabs, &sides),
+            sides,
         };
         let (mut drawn, unlettered): (Vec<DrawnSheet>, Vec<Vec<&str>>) =
             (sheets.iter().zip(&lines).enumerate())

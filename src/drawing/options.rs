@@ -14,8 +14,8 @@ use crate::error::{Error, Result};
 pub struct DrawingOptions {
     /// Scale of the drawing: number of millimetres for each unit of the surface. Default 1.
     pub scale: f64,
-    /// Depth of tabs (glued flaps) along cut creases, in millimetres. Tabs are on the side of the patch with the lower
-    /// number; a curved side gets several short ones. Default: no tabs.
+    /// Depth of tabs (glued flaps) along cut creases, in millimetres. Tabs are on the side with more room;
+    /// along a curve, and along a line that is joined to one, there are several short ones. Default: no tabs.
     pub tabs: Option<f64>,
     /// Distance between marks (short lines for alignment) along joints, in millimetres, at the same points on both
     /// sides. Default: no marks.

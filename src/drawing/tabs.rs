@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::curve::{Curve, MIN_CORNER_TURN};
-use super::line::FLATTENING_TOLERANCE_MM;
-use crate::math::planar::{distance, polyline_length, segments_intersect};
+use super::line::{FLATTENING_TOLERANCE_MM, place_at};
+use crate::math::planar::{Point2, distance, polyline_length, segments_intersect};
 use crate::pattern::{Run, Seam};
 
 /// A tab (a glued flap at an edge), and the line that the tab is folded along.
@@ -32,7 +32,7 @@ const STEEP_TAB_INSET_SHARE: f64 = 0.3;
 /// `benches/patterns.md` has what others give.
 const MIN_TAB_TOP_SHARE: f64 = 0.1;
 
-/// Angle, in radians, that a tab keeps from what is beside it in a notch. `benches/patterns.md` has what others give.
+/// Angle, in radians, that a tab keeps from what is beside it in a notch, and below which two tabs beside each other are cut apart. `benches/patterns.md` has what others give.
 const TAB_CLEARANCE_ANGLE: f64 = 0.02;
 
 /// Maximum depth of a tab, as a multiple of the length of its fold line. `benches/patterns.md` has what others give.
@@ -54,38 +54,72 @@ const MAX_TAB_HALVINGS: usize = 3;
 /// its curve in millimetres.
 type Outline<'a> = Vec<(&'a Run, Curve)>;
 
-/// Length of tabs along each crease, on the side of the patch with the lower number except for the `swapped` creases.
-fn tabbed_lengths(
+/// Both sides of each seam as polylines, by the number of its crease and of the patch that the side is on; `None` for a side that
+/// is in several pieces.
+pub(super) struct SeamSides(BTreeMap<(usize, Option<u32>), Option<Polyline>>);
+
+type Polyline = Vec<[f64; 2]>;
+
+impl SeamSides {
+    pub(super) fn new(outlines: &[&[Outline<'_>]]) -> Self {
+        let mut sides = BTreeMap::new();
+        for (run, curve) in outlines.iter().copied().flatten().flatten() {
+            if let Some(seam) = run.seam {
+                let points = Some(curve.points(FLATTENING_TOLERANCE_MM));
+                sides
+                    .entry((seam.crease, run.patch))
+                    .and_modify(|side| *side = None)
+                    .or_insert(points);
+            }
+        }
+        SeamSides(sides)
+    }
+
+    /// The side that a run is joined to, in the run's direction.
+    fn beside(&self, run: &Run) -> Option<Polyline> {
+        let seam = run.seam?;
+        let patch = (seam.patches.into_iter()).find(|patch| run.patch != Some(*patch));
+        let side = self.0.get(&(seam.crease, patch))?.as_ref()?;
+        Some(side.iter().rev().copied().collect())
+    }
+}
+
+/// Area of tabs along each crease, but for their cut ends, on the side of the patch with the lower number except for the `swapped` creases.
+fn tabbed_areas(
     outlines: &[&[Outline<'_>]],
     depth: Option<f64>,
     swapped: &BTreeSet<usize>,
+    sides: &SeamSides,
 ) -> BTreeMap<usize, f64> {
-    let mut lengths = BTreeMap::new();
+    let mut areas = BTreeMap::new();
     for outlines in outlines {
-        for tab in add_tabs(outlines, depth, swapped).1 {
-            *lengths.entry(tab.seam.crease).or_default() += tab.base.length();
+        for tab in add_tabs(outlines, depth, swapped, sides).1 {
+            *areas.entry(tab.seam.crease).or_default() += tab.base.length() * tab.depth;
         }
     }
-    lengths
+    areas
 }
 
 /// The creases whose tabs have more room on the side of the patch with the higher number; `outlines` are those of each
 /// sheet.
-pub(super) fn swapped_tabs(outlines: &[&[Outline<'_>]], depth: Option<f64>) -> BTreeSet<usize> {
-    let first = tabbed_lengths(outlines, depth, &BTreeSet::new());
-    let length = |lengths: &BTreeMap<usize, f64>, crease: &usize| {
-        lengths.get(crease).copied().unwrap_or(0.0)
-    };
+pub(super) fn swapped_tabs(
+    outlines: &[&[Outline<'_>]],
+    depth: Option<f64>,
+    sides: &SeamSides,
+) -> BTreeSet<usize> {
+    let first = tabbed_areas(outlines, depth, &BTreeSet::new(), sides);
+    let area =
+        |areas: &BTreeMap<usize, f64>, crease: &usize| areas.get(crease).copied().unwrap_or(0.0);
     let runs = outlines.iter().copied().flatten().flatten();
     let lacking: BTreeSet<usize> = runs
         .filter_map(|(run, curve)| {
             let crease = run.seam.filter(|seam| !seam.torn)?.crease;
-            let enough = MIN_TABBED_SHARE * curve.length();
-            (depth.is_some() && length(&first, &crease) < enough).then_some(crease)
+            let enough = MIN_TABBED_SHARE * curve.length() * depth?;
+            (area(&first, &crease) < enough).then_some(crease)
         })
         .collect();
-    let second = tabbed_lengths(outlines, depth, &lacking);
-    let is_better = |crease: &usize| length(&second, crease) > length(&first, crease);
+    let second = tabbed_areas(outlines, depth, &lacking, sides);
+    let is_better = |crease: &usize| area(&second, crease) > area(&first, crease);
     lacking.into_iter().filter(is_better).collect()
 }
 
@@ -95,6 +129,7 @@ pub(super) fn add_tabs(
     outlines: &[Outline<'_>],
     depth: Option<f64>,
     swapped: &BTreeSet<usize>,
+    sides: &SeamSides,
 ) -> (Vec<Curve>, Vec<Tab>) {
     let mut tabs = Vec::new();
     // The two sides of a step are not glued, so they have no tabs.
@@ -107,16 +142,16 @@ pub(super) fn add_tabs(
         depth.zip(own)
     };
     let parts = |(run, curve): &(&Run, Curve)| match tabbed(run) {
-        Some(_) => bases(curve),
-        None => vec![curve.clone()],
+        Some(_) => bases(curve, sides.beside(run).as_deref()),
+        None => (vec![curve.clone()], Vec::new()),
     };
-    let pieces: Vec<Vec<Vec<Curve>>> = (outlines.iter())
+    let pieces: Vec<Vec<(Vec<Curve>, Vec<f64>)>> = (outlines.iter())
         .map(|outline| outline.iter().map(parts).collect())
         .collect();
     // Segments that tabs must not touch: all outlines, and the tabs added so far.
     let mut walls: Vec<[[f64; 2]; 2]> = Vec::new();
     if depth.is_some() {
-        for piece in pieces.iter().flatten().flatten() {
+        for piece in pieces.iter().flatten().flat_map(|(bases, _)| bases) {
             walls.extend(
                 piece
                     .points(FLATTENING_TOLERANCE_MM)
@@ -129,7 +164,9 @@ pub(super) fn add_tabs(
     let mut numbers = 0..;
     for (outline, pieces) in outlines.iter().zip(pieces) {
         let mut cut = Curve::of(Vec::new());
-        for (((run, curve), bases), number_of_run) in outline.iter().zip(pieces).zip(&mut numbers) {
+        for (((run, curve), (bases, turns)), number_of_run) in
+            outline.iter().zip(pieces).zip(&mut numbers)
+        {
             let Some((depth, seam)) = tabbed(run) else {
                 cut.append(curve);
                 continue;
@@ -138,13 +175,13 @@ pub(super) fn add_tabs(
                 .map(|base| base.points(FLATTENING_TOLERANCE_MM))
                 .collect();
             let near = walls_near(&runs, depth, &walls);
-            let own = common_depth(&runs, depth, &near);
+            let own = common_depth(&runs, &turns, depth, &near);
             for (number, base) in bases.into_iter().enumerate() {
                 let points = &runs[number];
-                let turns = end_turns(&runs, number);
+                let ends = end_turns(&turns, number);
                 let near = walls_near(&runs[number..=number], depth, &walls);
                 let tab = (0..=MAX_TAB_HALVINGS)
-                    .find_map(|k| flap(points, turns, own / f64::from(1 << k), &near));
+                    .find_map(|k| flap(points, ends, own / f64::from(1 << k), &near));
                 let Some((depth, flap)) = tab else {
                     cut.append(&base);
                     continue;
@@ -181,42 +218,66 @@ fn walls_near(runs: &[Vec<[f64; 2]>], depth: f64, walls: &[[[f64; 2]; 2]]) -> Ve
     walls.iter().filter(is_near).copied().collect()
 }
 
-/// Divides a curve into fold lines of tabs: each line turns by at most [`MIN_CORNER_TURN`] and, where possible, is at
-/// least [`MIN_TAB_LENGTH_MM`] long.
-fn bases(curve: &Curve) -> Vec<Curve> {
+/// Divides a curve into fold lines of tabs: along each line the curve turns by at most [`MIN_CORNER_TURN`], as does the side that it is
+/// joined to, and, where possible, it is at least [`MIN_TAB_LENGTH_MM`] long. Returns also the angle, in radians and to the left, by
+/// which each line but the first turns from the one before: on the sheet, or where the tab is glued if that is less.
+fn bases(curve: &Curve, beside: Option<&[[f64; 2]]>) -> (Vec<Curve>, Vec<f64>) {
     let points = curve.points(FLATTENING_TOLERANCE_MM);
-    let heading = |i: usize| {
-        let [x, y] = [0, 1].map(|k| points[i + 1][k] - points[i][k]);
-        y.atan2(x)
-    };
     let whole = polyline_length(&points);
-    let mut ends = vec![0.0];
-    let (mut gone, mut turned) = (0.0, 0.0);
-    for i in 1..points.len() - 1 {
-        gone += distance(points[i - 1], points[i]);
-        let turn = heading(i) - heading(i - 1);
-        let turn = turn.sin().atan2(turn.cos());
-        turned += turn;
-        let room =
-            gone - ends[ends.len() - 1] >= MIN_TAB_LENGTH_MM && whole - gone >= MIN_TAB_LENGTH_MM;
-        if turn.abs() > MIN_CORNER_TURN || (turned.abs() > MIN_CORNER_TURN && room) {
-            ends.push(gone);
-            turned = 0.0;
+    let sides: Vec<&[[f64; 2]]> = [Some(&points[..]), beside].into_iter().flatten().collect();
+    let mut all: Vec<(f64, usize, f64)> = (sides.iter().enumerate())
+        .flat_map(|(side, points)| turns(points).map(move |(share, turn)| (share, side, turn)))
+        .collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut shares, mut turned) = (vec![0.0], [0.0f64; 2]);
+    for (share, side, turn) in all {
+        turned[side] += turn;
+        let room = (share - shares[shares.len() - 1]).min(1.0 - share) * whole >= MIN_TAB_LENGTH_MM;
+        let is_round = turned.iter().any(|turn| turn.abs() > MIN_CORNER_TURN);
+        if turn.abs() > MIN_CORNER_TURN || (is_round && room) {
+            shares.push(share);
+            turned = [0.0; 2];
         }
     }
-    let shares: Vec<f64> = ends[1..].iter().map(|end| end / whole).collect();
-    curve.split(&shares)
+    let cuts = &shares[1..];
+    let between: Vec<Vec<f64>> = (sides.iter())
+        .map(|points| {
+            let long = polyline_length(points);
+            let ends = shares.iter().chain(&[1.0]).map(|share| share * long);
+            let corners: Vec<[f64; 2]> = ends.map(|along| place_at(points, along).0).collect();
+            turns(&corners).map(|(_, turn)| turn).collect()
+        })
+        .collect();
+    let least = |k: usize| {
+        between
+            .iter()
+            .map(|turns| turns[k])
+            .fold(f64::INFINITY, f64::min)
+    };
+    (curve.split(cuts), (0..cuts.len()).map(least).collect())
+}
+
+/// The angles, in radians and to the left, by which a polyline turns at its inner points, each with the point's share of the length.
+fn turns(points: &[[f64; 2]]) -> impl Iterator<Item = (f64, f64)> {
+    let whole = polyline_length(points);
+    let mut gone = 0.0;
+    points.windows(3).map(move |p| {
+        let [u, v] =
+            [[p[0], p[1]], [p[1], p[2]]].map(|[p, q]| Point2::new(q[0] - p[0], q[1] - p[1]));
+        gone += u.norm();
+        (gone / whole, (u.conj() * v).arg())
+    })
 }
 
 /// Chooses one depth for the tabs along a run: the largest at which nearly as much of the run gets tabs as at any other.
 /// The few that do not fit at that depth are halved on their own.
-fn common_depth(runs: &[Vec<[f64; 2]>], depth: f64, walls: &[[[f64; 2]; 2]]) -> f64 {
+fn common_depth(runs: &[Vec<[f64; 2]>], turns: &[f64], depth: f64, walls: &[[[f64; 2]; 2]]) -> f64 {
     let depths: Vec<f64> = (0..=MAX_TAB_HALVINGS)
         .map(|k| depth / f64::from(1 << k))
         .collect();
     let tabbed = |depth: &f64| -> f64 {
         (0..runs.len())
-            .filter(|i| flap(&runs[*i], end_turns(runs, *i), *depth, walls).is_some())
+            .filter(|i| flap(&runs[*i], end_turns(turns, *i), *depth, walls).is_some())
             .map(|i| polyline_length(&runs[i]))
             .sum()
     };
@@ -226,20 +287,10 @@ fn common_depth(runs: &[Vec<[f64; 2]>], depth: f64, walls: &[[[f64; 2]; 2]]) -> 
     depths[lengths.iter().position(enough).unwrap_or_default()]
 }
 
-/// Returns the angles, in radians and to the left, by which the chord of a tab's fold line turns from that of the one
-/// before and to that of the one after; `None` at an end of the run.
-fn end_turns(runs: &[Vec<[f64; 2]>], number: usize) -> [Option<f64>; 2] {
-    let heading = |run: &Vec<[f64; 2]>| {
-        let [from, to] = [run[0], run[run.len() - 1]];
-        (to[1] - from[1]).atan2(to[0] - from[0])
-    };
-    let turn = |from: Option<&Vec<[f64; 2]>>, to: Option<&Vec<[f64; 2]>>| {
-        let turn = heading(to?) - heading(from?);
-        Some(turn.sin().atan2(turn.cos()))
-    };
-    let before = number.checked_sub(1).and_then(|i| runs.get(i));
-    let [own, after] = [number, number + 1].map(|i| runs.get(i));
-    [turn(before, own), turn(own, after)]
+/// The turns at both ends of a fold line of a tab; `None` at an end of the run.
+fn end_turns(turns: &[f64], number: usize) -> [Option<f64>; 2] {
+    let before = number.checked_sub(1).and_then(|k| turns.get(k));
+    [before, turns.get(number)].map(Option::<&f64>::copied)
 }
 
 /// Computes the depth and the outer corners of a tab to the right of its fold line; `None` if the fold line is too short or
@@ -265,8 +316,8 @@ fn flap(
             let room = (notches[end] - TAB_CLEARANCE_ANGLE).clamp(1e-9, FRAC_PI_2);
             [room.tan().recip().max((steepest / depth).min(1.0)), 0.0]
         }
-        Some(turn) if turn < 0.0 => {
-            let bisector = (-0.5 * turn).tan();
+        Some(turn) if turn < TAB_CLEARANCE_ANGLE => {
+            let bisector = (-0.5 * turn).tan().max(0.0);
             match bisector * depth + TAB_CLEARANCE_MM < steepest {
                 true => [bisector, TAB_CLEARANCE_MM],
                 false => [0.0, steepest],
@@ -346,14 +397,23 @@ mod tests {
     /// Fold lines of the tabs along a curve, and the tabs' depths and outer corners.
     #[allow(clippy::type_complexity)]
     fn tabs_along(curve: &Curve, depth: f64) -> Vec<(Vec<[f64; 2]>, f64, [[f64; 2]; 2])> {
-        let runs: Vec<_> = bases(curve)
-            .iter()
+        tabs_beside(curve, None, depth)
+    }
+
+    #[allow(clippy::type_complexity)]
+    fn tabs_beside(
+        curve: &Curve,
+        beside: Option<&[[f64; 2]]>,
+        depth: f64,
+    ) -> Vec<(Vec<[f64; 2]>, f64, [[f64; 2]; 2])> {
+        let (bases, turns) = bases(curve, beside);
+        let runs: Vec<_> = (bases.iter())
             .map(|base| base.points(FLATTENING_TOLERANCE_MM))
             .collect();
-        let own = common_depth(&runs, depth, &[]);
+        let own = common_depth(&runs, &turns, depth, &[]);
         (0..runs.len())
             .map(|i| {
-                let (depth, corners) = flap(&runs[i], end_turns(&runs, i), own, &[]).unwrap();
+                let (depth, corners) = flap(&runs[i], end_turns(&turns, i), own, &[]).unwrap();
                 (runs[i].clone(), depth, corners)
             })
             .collect()
@@ -374,6 +434,21 @@ mod tests {
         let (base, _, corners) = &tabs[0];
         let chord = distance(base[0], base[base.len() - 1]);
         assert!(distance(corners[0], corners[1]) < chord - 1.0);
+    }
+
+    #[test]
+    fn tabs_along_a_straight_edge_have_room_on_the_disc_that_it_is_joined_to() {
+        let (radius, depth) = (40.0, 6.0);
+        let disc = arc(radius, -TAU).points(FLATTENING_TOLERANCE_MM);
+        let edge = Curve::through(&[[0.0, 0.0], [TAU * radius, 0.0]]);
+        let tabs = tabs_beside(&edge, Some(&disc), depth);
+        assert!((20..=32).contains(&tabs.len()), "{}", tabs.len());
+        for (base, depth, [p, q]) in &tabs {
+            let [from, to] = [base[0][0], base[base.len() - 1][0]];
+            // Both radii of the disc from the ends of the fold line leave so much of the outer edge.
+            let free = (to - from) * (1.0 - depth / radius);
+            assert!(q[0] - p[0] < free, "{from} {to}: {p:?} {q:?}");
+        }
     }
 
     #[test]

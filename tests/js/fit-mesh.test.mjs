@@ -310,7 +310,7 @@ test('the command traces rulings of whole meshes', async () => {
   await writeFile(join(folder, 'scan.ply'), direct.writePly(noisy));
   const done = await run(folder, ['rulings', 'scan.ply', '--unit', 'mm', '-o', 'r.obj', '--surface', '--separation', '0.4', '--report', 'r.json']);
   assert.deepEqual([done.status, done.stdout], [0, ''], done.stderr);
-  assert.match(done.stderr, /^developable: scan\.ply is taken for a scan with noise of 0\.02 .*\n$/);
+  assert.match(done.stderr, /^developable: scan\.ply has no exact faces, .* off a smooth surface by 0\.02 .*\n$/);
   /** @type {{ lines: import('../../pkg/types.js').Ruling[] }} */
   const { lines } = JSON.parse(await readFile(join(folder, 'r.json'), 'utf8'));
   const { pipe: straight, cone: pointed, tilt, past } = offRulings(lines);
@@ -336,7 +336,7 @@ test('the command lays whole meshes flat', async () => {
   assert.match(await text('a.svg'), /<svg/);
   const flat = await run(folder, ['unroll', 'scan.ply', '--unit', 'mm', '-o', 'flat.obj', '--surface', '--report', 'flat.json']);
   assert.deepEqual([flat.status, flat.stdout], [0, ''], flat.stderr);
-  assert.match(flat.stderr, /^developable: scan\.ply is taken for a scan with noise of 0\.02 .*\n$/);
+  assert.match(flat.stderr, /^developable: scan\.ply has no exact faces, .* off a smooth surface by 0\.02 .*\n$/);
   const report = JSON.parse(await text('flat.json'));
   assert.deepEqual([report.sheets, report.patches.length], [sheets, 2]);
   const mesh = direct.readMesh(await readFile(join(folder, 'flat.obj')));
@@ -409,7 +409,7 @@ test('a mesh of which one side hides much is taken whole without a flag, and so 
   const [kept, said] = await area('rough.stl');
   assert.match(said, /each of its faces is kept \(--lambda auto/);
   const [fitted, told] = await area('rough.stl', '--lambda', 'auto');
-  assert.match(told, /rough\.stl is taken for a scan with noise of 0\.\d+/);
+  assert.match(told, /rough\.stl has no exact faces, .* by 0\.\d+/);
   assert.ok(fitted < 0.95 * kept, `${fitted} ${kept}`);
   assert.ok(Math.abs((await area('gable.stl'))[0] - 2 * 40 * Math.hypot(30, 10)) < 1e-6);
   assert.ok(Math.abs((await area('box.stl', '--size', '60'))[0] - 4 * 2200) < 1e-6);
@@ -436,9 +436,9 @@ test('what is fitted before it is laid flat is said, with the noise that was fou
   await writeFile(join(folder, 'bottle.stl'), direct.writeStl(noisy));
   const words = async (/** @type {string[]} */ ...more) =>
     (await run(folder, ['rulings', 'bottle.stl', '-o', 'x.json', '--surface', '--unit', 'mm', ...more])).stderr;
-  const [, found] = /bottle\.stl is taken for a scan with noise of ([\d.]+) in the file's unit/.exec(await words()) ?? [];
+  const [, found] = /bottle\.stl has no exact faces, .* by ([\d.]+) in the file's unit/.exec(await words()) ?? [];
   assert.ok(Math.abs(Number(found) / sigma - 1) < 0.2, found);
-  assert.doesNotMatch(await words('--as-is'), /scan/);
+  assert.doesNotMatch(await words('--as-is'), /fitted/);
 });
 
 test('a box is laid flat as it is, at the size that is asked for', async () => {

@@ -50,6 +50,12 @@ const ply = direct.writePly(hex);
 const drawing = direct.pattern(hex);
 const { positions, triangles } = direct.readMesh(ply);
 const whole = { positions, triangles, confidence: new Float32Array(positions.length / 3).fill(1) };
+// Whose best pattern is found at once; that of `whole` is searched for half a second.
+const cube = {
+  positions: new Float64Array(24).map((_, i) => ((Math.floor(i / 3) >> (i % 3)) & 1) * 30),
+  triangles: new Uint32Array([0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5]),
+  confidence: new Float32Array(8).fill(1),
+};
 
 /**
  * What each function is called with when all is in order, and the table of its options, the last argument.
@@ -77,7 +83,7 @@ const calls = {
   analyzeMesh: { args: { mesh: whole }, options: 'analyzeMesh' },
   meshRulings: { args: { mesh: whole }, options: 'meshRulings' },
   unrollMesh: { args: { mesh: whole }, options: 'unrollMesh' },
-  patternMesh: { args: { mesh: whole }, options: 'patternMesh' },
+  patternMesh: { args: { mesh: cube }, options: 'patternMesh' },
   recognizeMesh: { args: { mesh: whole } },
   backProject: { args: { input: bent, camera } },
   parseCamera: { args: { text: JSON.stringify(camera), images: [{ width: 8, height: 8 }] } },

@@ -3,6 +3,7 @@
  * `npm test -- --quick` what one minute is enough for once it was compiled.
  */
 import { compileWasm } from './build/wasm.mjs';
+import { rust } from './setup/rust.mjs';
 import { setupTests } from './setup.mjs';
 import { main, Problem, describe } from './util/problem.mjs';
 import { shownLater } from './util/process.mjs';
@@ -19,64 +20,69 @@ await main(async () => {
     throw new Problem(`No test has such a name: there are ${among.map(({ name }) => name).join(', ')}.`);
   }
   console.log(`${chosen.length} steps: less than ${duration(total(chosen))} on two idle cores after \`npm start\`, longer where more is to be compiled.`);
+  await rust();
+  const [alone, beside] = [chosen.filter((step) => !step.beside), chosen.filter((step) => step.beside)];
   // The tools and the wasm are compiled side by side.
   const compile = chosen.some(({ name }) => name === 'build') ? compileWasm : undefined;
-  const context = await timed('Set-up', () => setupTests(compile));
+  /** @type {import('./test/step.mjs').Context | undefined} */
+  let context;
+  /** @type {import('./test/step.mjs').Step} */
+  const setUp = { name: 'set-up', seconds: 1, what: 'tools, packages and wasm', run: async () => { context = await setupTests(compile); } };
 
   /** The steps that run beside the others, each after the one before. */
   let last = Promise.resolve();
-  const begun = new Map(chosen.filter(({ beside }) => beside).map((step) => {
-    const own = { text: '', isShown: false };
-    const outcome = last.then(() => shownLater.run(own, () => attempt(step, context)));
-    last = outcome.then(() => {});
-    return [step, { own, outcome }];
-  }));
+  const begun = [...(beside.length > 0 ? [setUp] : []), ...beside].map((step) => {
+    const one = { step, own: { text: '', isShown: false }, isDone: false };
+    const outcome = last.then(() => shownLater.run(one.own, () => attempt(step, () => context)));
+    last = outcome.then(() => {
+      one.isDone = true;
+    });
+    return Object.assign(one, { outcome });
+  });
   /** @type {Outcome[]} */
   const outcomes = [];
-  for (const step of chosen) {
-    heading(`${step.name}: ${step.what} (about ${duration(step.seconds)})`);
-    const started = begun.get(step);
-    if (started) {
-      process.stdout.write(started.own.text);
-      started.own.isShown = true;
-    }
-    const outcome = await (started?.outcome ?? attempt(step, context));
-    console.log(`${outcome.state} in ${outcome.seconds.toFixed(1)} s${outcome.remark && `: ${outcome.remark}`}`);
-    outcomes.push(outcome);
+  /** @param {import('./test/step.mjs').Step} step @param {() => Promise<Outcome>} outcome */
+  const show = async ({ name, what, seconds }, outcome) => {
+    heading(`${name}: ${what} (about ${duration(seconds)})`);
+    const found = await outcome();
+    console.log(`${found.state} in ${found.seconds.toFixed(1)} s${found.remark && `: ${found.remark}`}`);
+    outcomes.push(found);
+  };
+  const showNextBeside = async () => {
+    const { step, own, outcome } = /** @type {typeof begun[number]} */ (begun.shift());
+    await show(step, () => {
+      process.stdout.write(own.text);
+      own.isShown = true;
+      return outcome;
+    });
+  };
+  for (const step of alone) {
+    await show(step, () => attempt(step, () => undefined));
+    while (begun[0]?.isDone) await showNextBeside();
   }
+  while (begun.length > 0) await showNextBeside();
   summary(outcomes);
 });
 
 /**
  * @param {import('./test/step.mjs').Step} step
- * @param {import('./test/step.mjs').Context} context
+ * @param {() => import('./test/step.mjs').Context | undefined} context what the set-up has found, which steps beside the others wait for
  * @returns {Promise<Outcome>}
  */
-async function attempt({ name, run }, context) {
+async function attempt({ name, beside, run }, context) {
   const start = performance.now();
   /** @param {Outcome['state']} state @param {string} [remark] @returns {Outcome} */
   const ended = (state, remark = '') => ({ name, state, remark, seconds: (performance.now() - start) / 1000 });
   try {
-    await run(context);
+    const found = context();
+    if (beside && !found) return ended('skipped', 'the set-up has failed');
+    await run(/** @type {import('./test/step.mjs').Context} */ (found));
     return ended('passed');
   } catch (error) {
     // In CI everything has to be there, so that nothing goes untested unnoticed.
     if (error instanceof Skip && !process.env.CI) return ended('skipped', error.message);
     return ended('failed', describe(error));
   }
-}
-
-/**
- * @template T
- * @param {string} what
- * @param {() => Promise<T>} work
- */
-async function timed(what, work) {
-  const start = performance.now();
-  heading(what);
-  const result = await work();
-  console.log(`done in ${((performance.now() - start) / 1000).toFixed(1)} s`);
-  return result;
 }
 
 /** @param {readonly import('./test/step.mjs').Step[]} chosen */

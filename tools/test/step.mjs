@@ -18,8 +18,8 @@ import { run } from '../util/process.mjs';
  * @property {string} what
  * @property {number} seconds that it takes on two idle cores, about
  * @property {boolean} [quick] it is among the few of `npm test -- --quick`
- * @property {boolean} [beside] it runs beside the others, which leave a core idle while they compile a single crate, and after those
- *   before it that run so
+ * @property {boolean} [beside] it runs beside the others, which leave a core idle while they compile a single crate, after the set-up and those
+ *   before it that run so; others get no context
  * @property {(context: Context) => Promise<void>} run throws where something is wrong
  */
 

@@ -1,5 +1,6 @@
 /**
- * Every test there is, in the order of what fails fastest. Those of JavaScript run beside those of Rust. The seconds are those on two
+ * Every test there is, in the order of what fails fastest. Those of JavaScript and of wasm run beside those of Rust, once what they need
+ * is set up. The seconds are those on two
  * idle cores after `npm start`, of each step by itself (`benches/tests.md`).
  */
 import { buildInline } from '../build/inline.mjs';
@@ -14,7 +15,6 @@ import { inBrowser, inNode } from './wasm.mjs';
 export const steps = [
   { name: 'format', seconds: 2, quick: true, what: 'the layout of the Rust code', run: format },
   { name: 'size', seconds: 1, quick: true, what: 'lines and tuned constants beside their budgets', run: size },
-  { name: 'types', seconds: 8, quick: true, what: 'TypeScript over all JavaScript, with the types that Rust gives', run: types },
   { name: 'lint', seconds: 67, quick: true, what: 'clippy', run: lint },
   { name: 'rust', seconds: 180, what: 'the tests beside the code, and those of the whole library', run: rustTests },
   { name: 'rust-doc', seconds: 20, what: 'the examples in the documentation', run: docTests },
@@ -31,6 +31,7 @@ export const steps = [
       await buildInline();
     },
   },
+  { name: 'types', seconds: 8, quick: true, beside: true, what: 'TypeScript over all JavaScript, with the types that Rust gives', run: types },
   { name: 'wasm-node', seconds: 7, beside: true, what: 'the wasm in Node', run: inNode('wasm_node') },
   { name: 'wasm-browser', seconds: 5, beside: true, what: "the wasm in Chromium's main thread", run: inBrowser('wasm_browser') },
   { name: 'wasm-worker', seconds: 5, beside: true, what: 'the wasm in a dedicated worker in Chromium', run: inBrowser('wasm_worker') },

@@ -93,9 +93,9 @@ export class Connection {
     if (team) await remote.setThreadLimit(team.limit);
     await team?.start(begin);
     if (this.#end) team?.dismiss();
-    const seats = await remote.init(sources, copies && transfer(copies, [copies]), team?.size);
+    const starts = await remote.init(sources, copies && transfer(copies, [copies]), team?.size);
     if (!team) return;
-    if (seats) await team.join(seats);
+    if (starts) await team.join(starts);
     else if (team.size > 0) team.dismiss('build');
     await remote.setThreadLimit(team.limit);
   }

@@ -1,5 +1,5 @@
 /** A solve that runs in batches and looks up in between. */
-import { breathe } from './breathe.js';
+import { yieldToEventLoop } from './event-loop.js';
 import { DevelopableError } from './errors.js';
 
 /** Milliseconds of work in one batch: how long a message may have to wait. */
@@ -69,7 +69,7 @@ export class Job {
   async #run() {
     try {
       // Not at once: it may be dropped before its turn comes.
-      await breathe();
+      await yieldToEventLoop();
       const begin = this.#begin;
       this.#begin = undefined; // and with it what it holds on to
       if (this.#outcome || !begin) return;
@@ -78,10 +78,10 @@ export class Job {
       if (this.#outcome) return this.#release(solver);
       this.#solver = solver;
       if (this.#finishing) solver.cancel();
-      await breathe();
+      await yieldToEventLoop();
       while (!this.#outcome && solver.advance(BATCH)) {
         this.#tell();
-        await breathe();
+        await yieldToEventLoop();
       }
       this.#outcome ??= { news: { progress: solver.progress(), surface: solver.surface() } };
     } catch (error) {

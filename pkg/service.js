@@ -5,7 +5,7 @@ import { takeCopiesFrom } from './copies.js';
 import { DevelopableError } from './errors.js';
 import { patterns, solver } from './instances.js';
 import { Job } from './job.js';
-import { KeptSolver } from './kept.js';
+import { WarmSolver } from './warm-solver.js';
 import { paintOf } from './paint.js';
 import { becomeHelper, countIn, startSharedSolver } from './shared-solver.js';
 import { transfer, wrap } from './wire.js';
@@ -13,8 +13,8 @@ import { transfer, wrap } from './wire.js';
 /** @type {Map<number, Job>} */
 const jobs = new Map();
 
-/** @type {Map<number, KeptSolver>} */
-const kept = new Map();
+/** @type {Map<number, WarmSolver>} */
+const openSolvers = new Map();
 
 /** @typedef {import('./input.js').Image | import('./input.js').Lattice} Input */
 
@@ -33,7 +33,7 @@ export const service = {
    * @param {Place[]} sources of the solver's wasm, the files', the images', the meshes', of fits to meshes, the unrolling's and the patterns'
    * @param {MessagePort} [copies] where to get copies of them, where nothing lies beside this script
    * @param {number} [helpers] number of workers that are to help the solver
-   * @returns {Promise<import('./seat.js').Seat[] | undefined>} a seat for each; nothing where the solver takes none
+   * @returns {Promise<import('./helper-start.js').HelperStart[] | undefined>} what each helper needs to start; nothing where the solver takes none
    */
   async init([wasm, files, images, meshes, fitmesh, unroll, patterns], copies, helpers = 0) {
     if (copies) {
@@ -102,7 +102,7 @@ export const service = {
    */
   async open(solver, input) {
     await loaded(['solver']);
-    kept.set(solver, new KeptSolver(input));
+    openSolvers.set(solver, new WarmSolver(input));
   },
 
   /**
@@ -113,7 +113,7 @@ export const service = {
    * @param {number} interval
    */
   startOpen(solver, id, options, interval) {
-    jobs.set(id, keptSolver(solver).start(options, interval));
+    jobs.set(id, openSolver(solver).start(options, interval));
   },
 
   /**
@@ -121,7 +121,7 @@ export const service = {
    * @param {Input} input
    */
   replace(solver, input) {
-    keptSolver(solver).replace(input);
+    openSolver(solver).replace(input);
   },
 
   /**
@@ -129,8 +129,8 @@ export const service = {
    * @param {number} solver
    */
   close(solver) {
-    kept.get(solver)?.dispose();
-    kept.delete(solver);
+    openSolvers.get(solver)?.dispose();
+    openSolvers.delete(solver);
   },
 
   /**
@@ -203,8 +203,8 @@ export const service = {
 };
 
 /** @param {number} solver */
-function keptSolver(solver) {
-  const found = kept.get(solver);
+function openSolver(solver) {
+  const found = openSolvers.get(solver);
   if (!found) throw new DevelopableError('DISPOSED', 'there is no such solver');
   return found;
 }

@@ -3,11 +3,11 @@
  * solver's jobs. See `wasm/solver/src/team.rs`.
  */
 import { solver } from './instances.js';
-import { reportCrash } from './seat.js';
+import { reportCrash } from './helper-start.js';
 import * as glue from './threads/threads.js';
 import { compile } from './wasm-source.js';
 
-/** @import {Seat} from './seat.js' */
+/** @import {HelperStart} from './helper-start.js' */
 
 /** Pages of 64 KiB that the memory begins with: more than the module's own data take. */
 const INITIAL_MEMORY_PAGES = 64;
@@ -24,7 +24,7 @@ const PAUSE_MS = 0.05;
 /**
  * Starts this worker's solver in a memory of its own that can be shared.
  * @param {number} helpers
- * @returns {Promise<Seat[]>} a seat for each helper
+ * @returns {Promise<HelperStart[]>} what each helper needs to start
  */
 export async function startSharedSolver(helpers) {
   const module = await compile(new URL('./threads/threads_bg.wasm', import.meta.url));
@@ -36,10 +36,10 @@ export async function startSharedSolver(helpers) {
     (/** @type {number} */ count) => Atomics.notify(words, jobs / 4, count),
     () => Atomics.wait(words, crashes / 4, 0, PAUSE_MS),
   );
-  const seats = Array.from({ length: helpers }, () => ({ module, memory, stack: glue.helperStack(), jobs, crashes }));
+  const starts = Array.from({ length: helpers }, () => ({ module, memory, stack: glue.helperStack(), jobs, crashes }));
   // What fails before leaves the solver for one thread in place.
   solver.take(glue, exports);
-  return seats;
+  return starts;
 }
 
 /**
@@ -58,10 +58,10 @@ function sharedMemory(maximum) {
 
 /**
  * Makes this worker a helper, for the rest of its life.
- * @param {Seat} seat
+ * @param {HelperStart} start
  */
-export function becomeHelper(seat) {
-  const { module, memory, stack, jobs } = seat;
+export function becomeHelper(start) {
+  const { module, memory, stack, jobs } = start;
   const { exports } = new WebAssembly.Instance(module, helperImports(module, memory));
   const { __stack_pointer, join_team, help } = /** @type {HelperExports} */ (/** @type {unknown} */ (exports));
   const words = new Int32Array(memory.buffer);
@@ -72,7 +72,7 @@ export function becomeHelper(seat) {
     try {
       for (;;) Atomics.wait(words, jobs / 4, help(stack));
     } catch (error) {
-      reportCrash(seat);
+      reportCrash(start);
       throw error;
     }
   });

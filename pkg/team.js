@@ -1,6 +1,6 @@
 /** Helpers of a worker's solver: further workers with the same script, probed before they are relied on. */
 import { hardwareThreads } from './platform.js';
-import { reportCrash } from './seat.js';
+import { reportCrash } from './helper-start.js';
 import { wrap } from './wire.js';
 
 /**
@@ -60,14 +60,14 @@ export class Team {
 
   /**
    * Lets the helpers join the solver's team.
-   * @param {import('./seat.js').Seat[]} seats
+   * @param {import('./helper-start.js').HelperStart[]} starts
    */
-  async join(seats) {
+  async join(starts) {
     const joined = Promise.all(this.#helpers.map(async ({ thread, remote }, index) => {
-      const seat = seats[index];
+      const start = starts[index];
       // Without this the solver would wait for ever for a helper that is killed at work.
-      thread.ended.then(() => reportCrash(seat));
-      await remote.becomeHelper(seat);
+      thread.ended.then(() => reportCrash(start));
+      await remote.becomeHelper(start);
     }));
     // A late helper joins all the same: to end it might end it at work.
     const all = await Promise.race([joined.then(() => true, () => false), timeLimit()]);

@@ -1,6 +1,6 @@
 /** Cameras from files. */
 import { parseCamera } from '../index.js';
-import { about } from './explain.js';
+import { withFileName } from './explain.js';
 import { readBytes } from './files.js';
 
 /**
@@ -12,5 +12,5 @@ import { readBytes } from './files.js';
  */
 export async function readCamera(path, images) {
   const bytes = await readBytes(path);
-  return about(path, async () => parseCamera(bytes, images));
+  return withFileName(path, async () => parseCamera(bytes, images));
 }

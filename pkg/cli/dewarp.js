@@ -2,7 +2,7 @@
 import * as developable from '../index.js';
 import { dewarp as flattening } from '../schema/photo.js';
 import { readCamera } from './camera.js';
-import { about } from './explain.js';
+import { withFileName } from './explain.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { mapFile, mapOptions, printed, sizeInWords } from './flat-image.js';
 import { cylinderOf, flattened, reported } from './flattened.js';
@@ -130,7 +130,7 @@ function checkUnit({ unit }) {
 /** @param {string} path */
 async function readPhoto(path) {
   const bytes = await readBytes(path);
-  return about(path, () => developable.readPhoto(bytes));
+  return withFileName(path, () => developable.readPhoto(bytes));
 }
 
 /**

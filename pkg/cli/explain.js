@@ -32,7 +32,7 @@ export function asProblem(error) {
  * @param {string} path
  * @param {() => Promise<T>} read
  */
-export async function about(path, read) {
+export async function withFileName(path, read) {
   try {
     return await read();
   } catch (error) {

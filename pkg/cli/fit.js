@@ -5,7 +5,7 @@ import { solver } from '../schema/fit.js';
 import { readCamera } from './camera.js';
 import { IMAGE_FILES, MESH_FILES } from './commands.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
-import { about } from './explain.js';
+import { withFileName } from './explain.js';
 import { readForFit } from './inputs.js';
 import { Problem, status } from './problem.js';
 import { optionsFrom } from './task.js';
@@ -30,7 +30,7 @@ export async function fit(task, signal) {
   const bare = await solve(task, input, { signal, transfer: true });
   const surface = texture === undefined
     ? bare
-    : await about(String(task.texture), () => developable.paint(bare, texture, camera && { camera }));
+    : await withFileName(String(task.texture), () => developable.paint(bare, texture, camera && { camera }));
   const files = [{ path: task.output, bytes: await during(`making ${task.output}`, () => encode(task, surface, map)) }];
   if (task.mtl !== undefined) {
     files.push({ path: task.mtl, bytes: await developable.writeMtl(from(task.mtl, String(task.texture))) });
@@ -72,7 +72,7 @@ export async function fit(task, signal) {
 async function seenBy({ texture: path, camera: depths, photoCamera, mtl }, texture) {
   const seen = depths !== undefined || photoCamera !== undefined;
   if (!seen && mtl === undefined) return {};
-  const { width, height, orientation } = await about(String(path), () => developable.readPhoto(texture));
+  const { width, height, orientation } = await withFileName(String(path), () => developable.readPhoto(texture));
   // Texture coordinates are those of the upright photo, and what reads an .obj may show the pixels as they are stored.
   if (mtl !== undefined && orientation !== undefined) {
     throw new Problem(

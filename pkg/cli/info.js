@@ -1,7 +1,7 @@
 /** `developable info`: what is in a file. */
 import { basename } from 'node:path';
 import * as developable from '../index.js';
-import { about } from './explain.js';
+import { withFileName } from './explain.js';
 import { readBytes } from './files.js';
 import { assumptionsInWords, readMeshFile } from './inputs.js';
 import { isMesh } from './task.js';
@@ -12,7 +12,7 @@ import { print } from './terminal.js';
 /** @param {import('./task.js').Task} task */
 export async function info({ input, array }) {
   const bytes = await readBytes(input);
-  const lines = await about(input, async () => {
+  const lines = await withFileName(input, async () => {
     const read = () => (isMesh(input) ? readMeshFile(input, bytes) : developable.read(bytes, { array, name: basename(input) }));
     const listed = isArchive(bytes) && !isMesh(input) && array === undefined ? arraysInWords(await developable.npzArrays(bytes)) : [];
     // Several arrays are listed, to choose one.

@@ -5,7 +5,7 @@ import * as developable from '../index.js';
 import { patternMesh } from '../schema/pattern.js';
 import { readCamera } from './camera.js';
 import { readBytes } from './files.js';
-import { about } from './explain.js';
+import { withFileName } from './explain.js';
 import { flagOf } from './flags.js';
 import { Problem, status } from './problem.js';
 import { confirmSize } from './size.js';
@@ -229,7 +229,7 @@ export async function readMeshFile(input, bytes, written = [], unit = undefined)
       }
       files.set(name, await readBytes(path));
     }
-    const mesh = await about(input, () => developable.readMesh(bytes, { files, unit }));
+    const mesh = await withFileName(input, () => developable.readMesh(bytes, { files, unit }));
     // The materials that were found name textures in turn.
     names = (mesh.missing ?? []).filter((name) => !tried.has(name));
     if (names.length === 0) return mesh;
@@ -296,7 +296,7 @@ async function whyMissing(folder, name) {
  */
 async function readImage(path, { array, noData, assumeNoData, pixelSize } = {}) {
   const bytes = await readBytes(path);
-  return about(path, () => developable.read(bytes, { array, name: basename(path), noData, assumeNoData, pixelSize }));
+  return withFileName(path, () => developable.read(bytes, { array, name: basename(path), noData, assumeNoData, pixelSize }));
 }
 
 /**

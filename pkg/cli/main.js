@@ -15,10 +15,10 @@ import { pattern } from './pattern.js';
 import { Problem, status } from './problem.js';
 import { sideOrWhole } from './side.js';
 import { isUntold, taskOf } from './task.js';
-import { analyze, patches, rulings } from './tell.js';
+import { analyze, patches, rulings } from './surface-commands.js';
 import { print, streams, withStreams } from './terminal.js';
 import { unroll } from './unroll.js';
-import { whole } from './whole.js';
+import { whole } from './mesh-commands.js';
 
 /** Signals that end the work in good order, without drafts left beside the output, and the exit status of each. */
 const SIGNALS = { SIGHUP: status.hungUp, SIGINT: status.interrupted, SIGTERM: status.terminated };

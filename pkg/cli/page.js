@@ -2,7 +2,7 @@
 import * as developable from '../index.js';
 import { messageOf } from '../errors.js';
 import { dewarp as flattening, dewarpPage } from '../schema/photo.js';
-import { about, asProblem } from './explain.js';
+import { asProblem, withFileName } from './explain.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { mapFile, mapOptions, printed, sizeInWords, titleOf } from './flat-image.js';
 import { tellAssumptions } from './inputs.js';
@@ -35,11 +35,11 @@ export async function page(task, signal) {
   /** @param {string} input */
   const flatten = async (input) => {
     const bytes = await readBytes(input);
-    const photo = tellAssumptions(input, await about(input, () => developable.readPhoto(bytes)));
+    const photo = tellAssumptions(input, await withFileName(input, () => developable.readPhoto(bytes)));
     const { width, height } = photo;
     const flat = await during(`flattening ${input}`, (watched) => {
       const dewarp = () => developable.dewarpPage(photo, edges, { ...options, ...mapOptions(task.map), ...watched, transfer: true });
-      return several ? about(input, dewarp) : dewarp();
+      return several ? withFileName(input, dewarp) : dewarp();
     });
     if (task.map !== undefined) files.push({ path: task.map, bytes: mapFile(flat, { width, height }) });
     const { size, unit, report, outline, light } = flat;

@@ -100,12 +100,12 @@ const COLUMNS = ['lambda', 'smallest', 'sheets', 'folds', 'slits', 'cuts (mm)', 
 
 /** @param {import('../types.js').PatternPlan} plan */
 function row({ lambda, smallest, distance, seconds, drawing }) {
-  const figures = drawing === undefined ? ['cannot be laid flat', '', '', '', ''] : told(drawing.summary);
+  const figures = drawing === undefined ? ['cannot be laid flat', '', '', '', ''] : rowOf(drawing.summary);
   return [Number(lambda.toPrecision(3)).toExponential(), String(smallest), ...figures, String(Number(distance.toPrecision(3))), seconds.toFixed(1)];
 }
 
 /** @param {import('../types.js').Drawing['summary']} summary */
-function told({ sheets, folds, slits, cutLength, strain }) {
+function rowOf({ sheets, folds, slits, cutLength, strain }) {
   return [String(sheets), String(folds), String(slits), cutLength.toFixed(0), percent(strain, 2)];
 }
 

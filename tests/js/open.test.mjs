@@ -4,7 +4,7 @@ import { readFile } from 'node:fs/promises';
 import { after, test } from 'node:test';
 import { Solver, init } from '../../pkg/direct.js';
 import * as developable from '../../pkg/index.js';
-import { KeptSolver } from '../../pkg/kept.js';
+import { WarmSolver } from '../../pkg/warm-solver.js';
 import { wasmFile } from './support/paths.mjs';
 import { cylinder, deviation, endless, image, noisy, plane } from './support/shapes.mjs';
 import { Listener } from './support/waiting.mjs';
@@ -56,7 +56,7 @@ test('the newest wish wins', async () => {
 
 test('what is overtaken before its turn is never set up', async () => {
   await init();
-  const kept = new KeptSolver(/** @type {any} */ ({ ...rough, kind: 'image' }));
+  const kept = new WarmSolver(/** @type {any} */ ({ ...rough, kind: 'image' }));
   let made = 0;
   const restart = Solver.prototype.restart;
   Solver.prototype.restart = function (options) {

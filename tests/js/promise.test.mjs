@@ -5,7 +5,7 @@ import { subscribe, unsubscribe } from 'node:diagnostics_channel';
 import { readFile } from 'node:fs/promises';
 import { after, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { breathe } from '../../pkg/breathe.js';
+import { yieldToEventLoop } from '../../pkg/event-loop.js';
 import * as developable from '../../pkg/index.js';
 import { filesWasmFile, pkg, wasmFile } from './support/paths.mjs';
 import { cylinder, deviation, endless, image, lattice, noisy, plane } from './support/shapes.mjs';
@@ -102,7 +102,7 @@ test('calls that can be aborted wait for one another, and use no further threads
   const queued = [long(waiting), long()];
   const aborted = assert.rejects(queued[0], { name: 'AbortError' });
   const disposed = [...running, queued[1]].map((call) => assert.rejects(call, { code: 'DISPOSED' }));
-  await breathe();
+  await yieldToEventLoop();
   waiting.abort();
   await aborted;
   worker.dispose();
@@ -202,7 +202,7 @@ test('a rejected promise of onProgress ends the solve and comes out', async () =
   process.on('unhandledRejection', listen);
   const isMine = (/** @type {unknown} */ error) => error === mine;
   const late = async () => {
-    await breathe();
+    await yieldToEventLoop();
     throw mine;
   };
   const solver = await developable.open(input);
@@ -231,7 +231,7 @@ test('the promises of onProgress are awaited one after the other', async () => {
       calls += 1;
       running += 1;
       most = Math.max(most, running);
-      await breathe();
+      await yieldToEventLoop();
       running -= 1;
     },
   });

@@ -76,20 +76,20 @@ test('numbers of threads that cannot be are refused', async () => {
 
 /** What makes a helper crash: no stack at all, and one that has overflowed into the guard below it. */
 const FATAL_STACKS = {
-  missing: '{ ...seat, stack: 0 }',
-  overflowed: '(new Uint8Array(seat.memory.buffer).fill(0, seat.stack - (1 << 20) - 8, seat.stack - (1 << 20)), seat)',
+  missing: '{ ...start, stack: 0 }',
+  overflowed: '(new Uint8Array(start.memory.buffer).fill(0, start.stack - (1 << 20) - 8, start.stack - (1 << 20)), start)',
 };
 
-for (const [what, seat] of Object.entries(FATAL_STACKS)) test(`a helper whose stack is ${what} ends the solve with an error`, async () => {
+for (const [what, start] of Object.entries(FATAL_STACKS)) test(`a helper whose stack is ${what} ends the solve with an error`, async () => {
   const script = `
     import { Solver } from ${JSON.stringify(pathToFileURL(join(pkg, 'direct.js')).href)};
     import { startSharedSolver } from ${JSON.stringify(pathToFileURL(join(pkg, 'shared-solver.js')).href)};
     import { spawn } from ${JSON.stringify(pathToFileURL(join(pkg, 'thread.js')).href)};
     import { wrap } from ${JSON.stringify(pathToFileURL(join(pkg, 'wire.js')).href)};
-    const [seat] = await startSharedSolver(1);
+    const [start] = await startSharedSolver(1);
     const helper = spawn();
     helper.hold(true);
-    await wrap(helper.endpoint).becomeHelper(${seat});
+    await wrap(helper.endpoint).becomeHelper(${start});
     const data = Float64Array.from({ length: 300 * 300 }, (_, i) => Math.abs(i % 300 - 75) + Math.sin(i));
     try {
       for (;;) {

@@ -1,7 +1,7 @@
-/** A helper's seat in the solver's team, and the report of its end. */
+/** What a helper needs to start in the solver's team, and the report of its end. */
 
 /**
- * @typedef {object} Seat
+ * @typedef {object} HelperStart
  * @property {WebAssembly.Module} module
  * @property {WebAssembly.Memory} memory
  * @property {number} stack address of the top of the helper's stack
@@ -11,7 +11,7 @@
 
 /**
  * Tells the solver, which may be waiting for a helper, that the helper has ended.
- * @param {Seat} seat
+ * @param {HelperStart} start
  */
 export function reportCrash({ memory, crashes }) {
   const words = new Int32Array(memory.buffer);

@@ -8,7 +8,7 @@ import { Job } from './job.js';
  * @typedef {import('./types.js').SolverOptions} SolverOptions
  */
 
-export class KeptSolver {
+export class WarmSolver {
   /** @type {Input | undefined} what to solve next; nothing means the same again */
   #input;
   /** @type {direct.Solver | undefined} */

@@ -3,7 +3,7 @@
  * for 4 ms or more when nested, and for a second in a page in the background.
  * @type {() => Promise<void>}
  */
-export const breathe =
+export const yieldToEventLoop =
   typeof setImmediate === 'function'
     ? () => new Promise((resolve) => setImmediate(resolve))
     : throughChannel();

@@ -59,7 +59,7 @@ impl Registration<'_> {
         let mut uvs = try_filled("texture coordinates", lattice.len(), [f32::NAN; 2])?;
         for (i, (uv, z)) in uvs.iter_mut().zip(surface.heights()).enumerate() {
             let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
-            let seen = camera.seen_from(frame.unview([x, y, *z]));
+            let seen = camera.seen_from(frame.to_world([x, y, *z]));
             let Some(pixel) = camera.intrinsics.project(seen) else {
                 continue;
             };
@@ -137,7 +137,7 @@ impl PhotoProjection {
         match self {
             PhotoProjection::Plane(..) => point,
             PhotoProjection::Camera(camera, frame) | PhotoProjection::Pinhole(_, camera, frame) => {
-                camera.seen_from(frame.unview(point))
+                camera.seen_from(frame.to_world(point))
             }
             PhotoProjection::Uvs(uvs, _) => [uvs[vertex][0].into(), uvs[vertex][1].into(), 0.0],
         }

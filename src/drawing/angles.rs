@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use super::curve::Curve;
 use super::line::{FLATTENING_TOLERANCE_MM, place_at};
 use super::lines::Lines;
-use crate::pattern::{Meeting, Run, Sheet};
+use crate::pattern::{Junction, Run, Sheet};
 use crate::unroll::flat_triangle::Point;
 
 /// Point of the surface where the sum of the angles of the flat pieces around it differs most from the angle of the
@@ -37,7 +37,7 @@ impl WorstAngle {
 /// Sum of the angles of the flat pieces around a point of the surface where cuts or folds end, over the pieces added so
 /// far.
 struct PointAngles {
-    meeting: Meeting,
+    meeting: Junction,
     /// Number of ends of cut edges that were found at the point: twice the number of cuts when all are found, because
     /// both sides of a cut are edges of flat pieces.
     ends: usize,
@@ -49,7 +49,7 @@ struct PointAngles {
 /// cuts or folds end; points that cannot be measured are left out.
 pub(super) fn angles(sheets: &[Sheet], lines: &[Lines<'_>], scale: f64) -> Vec<WorstAngle> {
     let mut all: BTreeMap<usize, PointAngles> = BTreeMap::new();
-    let mut add = |meeting: &Meeting, ends: usize, angle: f64, crease: Option<usize>| {
+    let mut add = |meeting: &Junction, ends: usize, angle: f64, crease: Option<usize>| {
         let around = all.entry(meeting.number).or_insert(PointAngles {
             meeting: *meeting,
             ends: 0,
@@ -77,7 +77,7 @@ pub(super) fn angles(sheets: &[Sheet], lines: &[Lines<'_>], scale: f64) -> Vec<W
         }
     }
     let compared = all.into_values().filter_map(|around| {
-        let Meeting {
+        let Junction {
             cuts,
             angle: surface,
             ..
@@ -115,7 +115,7 @@ fn is_within(run: &Run) -> bool {
 
 /// Computes the angle of a flat sheet at the corner between outline piece `k` and the next one, in radians, measured at
 /// the same distance from the corner as the angle of the surface.
-fn corner(outline: &[(&Run, Curve)], k: usize, meeting: &Meeting, scale: f64) -> f64 {
+fn corner(outline: &[(&Run, Curve)], k: usize, meeting: &Junction, scale: f64) -> f64 {
     let count = outline.len();
     let mut next = (1..=count).map(|i| (k + i) % count);
     let next = next.find(|i| !is_within(outline[*i].0)).unwrap_or(k);

@@ -85,12 +85,15 @@ pub(super) fn nest_shapes(shapes: &[Shape], page: [f64; 2]) -> Vec<Option<Nested
             continue;
         }
         let reach = (TEXT_SIZE_MM / cell).ceil() as usize;
-        let grown: Vec<Mask> = fitting.iter().map(|(_, mask)| mask.grown(reach)).collect();
+        let dilated: Vec<Mask> = fitting
+            .iter()
+            .map(|(_, mask)| mask.dilated(reach))
+            .collect();
         // The lowest place on the first page that has one.
         let spot = |page: &Mask| {
-            let places = fitting.iter().zip(&grown).enumerate();
-            let found = places.filter_map(|(k, ((_, mask), grown))| {
-                let [x, y] = page.room(mask, grown, reach)?;
+            let places = fitting.iter().zip(&dilated).enumerate();
+            let found = places.filter_map(|(k, ((_, mask), dilated))| {
+                let [x, y] = page.lowest_free_position(mask, dilated, reach)?;
                 Some((y + mask.rows.len(), x, k, [x, y]))
             });
             found.min().map(|(_, _, k, at)| (k, at))
@@ -211,7 +214,7 @@ impl Mask {
 
     /// Computes the dilation of the mask, which enlarges its occupied area by a square of `2 reach + 1` cells a side;
     /// its origin moves by `reach` cells to the lower left.
-    fn grown(&self, reach: usize) -> Mask {
+    fn dilated(&self, reach: usize) -> Mask {
         let mut out = Mask::empty(self.columns + 2 * reach, self.rows.len() + 2 * reach);
         for y in 0..self.rows.len() {
             for x in (0..self.columns).filter(|x| self.has(*x, y)) {
@@ -227,14 +230,19 @@ impl Mask {
 
     /// Finds the lowest position of a shape on a page, and of several the leftmost, at which the dilated shape meets no
     /// occupied cell; `None` if there is none.
-    fn room(&self, shape: &Mask, grown: &Mask, reach: usize) -> Option<[usize; 2]> {
+    fn lowest_free_position(
+        &self,
+        shape: &Mask,
+        dilated: &Mask,
+        reach: usize,
+    ) -> Option<[usize; 2]> {
         let last = [
             self.columns.checked_sub(shape.columns)?,
             self.rows.len().checked_sub(shape.rows.len())?,
         ];
         for y in 0..=last[1] {
             for x in 0..=last[0] {
-                if !self.meets(grown, x, y, reach) {
+                if !self.meets(dilated, x, y, reach) {
                     return Some([x, y]);
                 }
             }
@@ -243,8 +251,8 @@ impl Mask {
     }
 
     /// Returns whether a dilated shape at a given position meets an occupied cell of the page.
-    fn meets(&self, grown: &Mask, x: usize, y: usize, reach: usize) -> bool {
-        grown.rows.iter().enumerate().any(|(k, row)| {
+    fn meets(&self, dilated: &Mask, x: usize, y: usize, reach: usize) -> bool {
+        dilated.rows.iter().enumerate().any(|(k, row)| {
             let Some(own) = (y + k)
                 .checked_sub(reach)
                 .and_then(|row| self.rows.get(row))

@@ -11,7 +11,7 @@ use super::options::{HuberOptions, Options};
 use super::report::{LambdaChoice, LambdaReason, Progress, StopReason};
 use super::surface::Surface;
 use super::threads::Threads;
-use super::tuning::closed_form::{self, Known};
+use super::tuning::closed_form::{self, InputStatistics};
 use super::tuning::line_residuals::level_lines;
 use super::tuning::noise::Noise;
 use super::tuning::refinement::{MAX_NOISE_DISTANCE, MAX_RESIDUAL, Next, Refinement};
@@ -114,12 +114,12 @@ impl Solver {
         let asked = levelling.asked.with_energy_for(is_design);
         levelling.solves += 1;
         let mut is_levelling = false;
-        let known = Known::of(&prepared.input, &asked)?;
-        let Known { scale, noise, .. } = known;
+        let statistics = InputStatistics::of(&prepared.input, &asked)?;
+        let InputStatistics { scale, noise, .. } = statistics;
         let (mut options, mut choice) = (asked, None);
         let (mut search, mut refinement) = (None, None);
         if asked.chooses_lambda() {
-            let (first, found, aim) = closed_form::initial_options(&asked, known);
+            let (first, found, aim) = closed_form::initial_options(&asked, statistics);
             options = first;
             let [offset_rows, offset_columns] = prepared.input.offset_lines();
             is_levelling = found.reason == LambdaReason::Noise
@@ -135,7 +135,7 @@ impl Solver {
             if let Some(aim) = aim.filter(|_| !is_levelling) {
                 // λ is refined again where the coarse lattice was too coarse for the shape.
                 refinement = Some(Refinement::new(aim, 1.0));
-                search = Search::new(&prepared.input, &first, known, aim)?;
+                search = Search::new(&prepared.input, &first, statistics, aim)?;
             }
         }
         if is_levelling {

@@ -6,7 +6,7 @@ use super::admm::parameters::AdmmParameters;
 use super::admm::solver::initial_rho;
 use super::heightfields::Problem;
 use super::linear::multigrid::Multigrid;
-use super::linear::precise::Precise;
+use super::linear::refined_solver::RefinedSolver;
 use crate::error::Result;
 use crate::lattice::domain::Domain;
 
@@ -46,7 +46,7 @@ pub(crate) fn fill(
 ) -> Result<usize> {
     let rho = initial_rho(parameters, problem);
     let mut multigrid = Multigrid::new(problem, domains, rho)?;
-    let mut precise = Precise::new(problem)?;
+    let mut precise = RefinedSolver::new(problem)?;
     let given = problem.target.clone();
     for cell in &problem.free {
         problem.target[*cell as usize] = 0.0;

@@ -1,21 +1,21 @@
 //! Joins the parts of a surface to flat sheets, and checks each sheet as it is drawn.
 
-use super::check::{Tied, are_close, strains};
+use super::check::{SheetMesh, are_close, strains};
 use super::crumbs::remove_crumbs;
 use super::faces::faces;
 use super::fault::{Fault, SHEET_RELAXATION, fault, folds_of};
 use super::flat_patch::Relaxation;
+use super::junction::Junctions;
+use super::label_spot::label_spot;
 use super::layout::{Arrangement, arrange_patches, seam_gap};
-use super::meeting::Meetings;
 use super::options::PatternOptions;
 use super::outline::Layout;
 use super::parts::Parts;
 use super::refold::refold_sheet;
 use super::seam_graph::SeamGraph;
 use super::sew::close_cuts;
-use super::shape::{folds, outlines};
+use super::sheet_lines::{folds, outlines};
 use super::sheets::{Direction, Missing, Pattern, Run, Seam, Sheet};
-use super::spots::label_spot;
 use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::math::planar::{polygon_area, polyline_length};
@@ -28,14 +28,14 @@ use crate::unroll::flat_triangle::Point;
 /// Result of joining the parts of a surface: valid flat sheets, or parts that have to be cut further.
 pub(super) enum Assembly {
     /// All parts of the surface are on valid flat sheets.
-    Whole(Box<Assembled>),
+    Whole(Box<AssembledSheets>),
     /// The parts of the surface, and for each part that has to be cut its number and the reason; no numbers if vertices
     /// at a part's border were removed instead.
     Cut(Box<Parts>, Vec<(u32, String)>),
 }
 
 /// All flat sheets of a pattern, with the positions of their patches in the plane.
-pub(super) struct Assembled {
+pub(super) struct AssembledSheets {
     pub parts: Parts,
     pub patches: Patches,
     pub net: SeamGraph,
@@ -83,8 +83,8 @@ pub(super) fn assemble_sheets(
         let mut arrangement = arrange_patches(&net, options.max_seam_gap);
         let settled = progress::part(0.4, || settle(&parts, &mut net, &mut arrangement))?;
         match settled {
-            Settled::Opened(found) => wrong = found,
-            Settled::Removable(part, removed) => {
+            FlatteningOutcome::Opened(found) => wrong = found,
+            FlatteningOutcome::Removable(part, removed) => {
                 parts.flat_patches = net.flat_patches;
                 parts.leave_out_vertices(part, removed)?;
                 return Ok(Assembly::Cut(Box::new(parts), Vec::new()));
@@ -92,7 +92,7 @@ pub(super) fn assemble_sheets(
         }
         if wrong.is_empty() {
             close_cuts(&mut net, &mut arrangement, limit, |_| true)?;
-            return Ok(Assembly::Whole(Box::new(Assembled {
+            return Ok(Assembly::Whole(Box::new(AssembledSheets {
                 parts,
                 patches,
                 net,
@@ -105,7 +105,7 @@ pub(super) fn assemble_sheets(
 }
 
 /// Result of laying the patches of all sheets flat together.
-pub(super) enum Settled {
+pub(super) enum FlatteningOutcome {
     /// Folds of invalid sheets were opened; a patch of each sheet that is invalid nevertheless, and the reason.
     Opened(Vec<(u32, String)>),
     /// The invalid sheet would be valid without some border vertices; holds the number of the part and these vertices.
@@ -118,7 +118,7 @@ pub(super) fn settle(
     parts: &Parts,
     net: &mut SeamGraph,
     arrangement: &mut Arrangement,
-) -> Result<Settled> {
+) -> Result<FlatteningOutcome> {
     let limit = parts.options.max_strain;
     let mut pending = std::mem::take(&mut arrangement.sheets);
     let layout = &mut arrangement.layout;
@@ -137,7 +137,7 @@ pub(super) fn settle(
         }
         let folded = folds_of(net, layout, &members);
         if relaxations.contains(&Relaxation::Outstanding) || !are_close(net, layout, &folded) {
-            let mut tied = Tied::new(net, layout, &members, &folded)?;
+            let mut tied = SheetMesh::new(net, layout, &members, &folded)?;
             progress::part(end, || tied.relax(net, layout, SHEET_SETTLING))?;
             // Most sheets are within the strain limit already.
             if strains(net, &members).0.rms() > limit {
@@ -153,7 +153,7 @@ pub(super) fn settle(
         if let Some((part, removed)) = removed {
             arrangement.sheets.append(&mut pending);
             arrangement.sheets.push(members);
-            return Ok(Settled::Removable(part, removed));
+            return Ok(FlatteningOutcome::Removable(part, removed));
         }
         match fault {
             Some(fault) if !folded.is_empty() => {
@@ -174,7 +174,7 @@ pub(super) fn settle(
             }
         }
     }
-    Ok(Settled::Opened(wrong))
+    Ok(FlatteningOutcome::Opened(wrong))
 }
 
 /// Finds the few vertices of one part whose removal would make an invalid sheet valid; returns the part's number and
@@ -240,8 +240,8 @@ fn folds_to_open(net: &SeamGraph, layout: &Layout, folded: &[usize], fault: &Fau
 }
 
 /// Creates the pattern: outlines, folds, label positions, strain and area of all sheets.
-pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pattern> {
-    let Assembled {
+pub(super) fn draw_sheets(surface: &Heightfield, whole: &AssembledSheets) -> Result<Pattern> {
+    let AssembledSheets {
         parts,
         patches,
         net,
@@ -272,15 +272,15 @@ pub(super) fn draw_sheets(surface: &Heightfield, whole: &Assembled) -> Result<Pa
             torn: net.is_torn(number),
         }
     };
-    let meetings = Meetings::new(&parts.surface, &parts.labels, net, layout)?;
+    let junctions = Junctions::new(&parts.surface, &parts.labels, net, layout)?;
     let sheets = arrangement.sheets.iter().map(|members| {
-        let (outlines, loops) = outlines(net, layout, members, &meetings, seam);
+        let (outlines, loops) = outlines(net, layout, members, &junctions, seam);
         let own = |patch: &u32| patches.patches()[*patch as usize].area;
         let (strain, _) = strains(net, members);
         let folded = folds_of(net, layout, members);
         let gaps = folded.iter().map(|seam| seam_gap(net, layout, *seam));
         Ok(Sheet {
-            folds: folds(net, layout, members, &outlines, &meetings, seam),
+            folds: folds(net, layout, members, &outlines, &junctions, seam),
             outlines,
             spots: members.iter().filter_map(spot).collect(),
             faces: faces(&parts.surface, net, layout, members),
@@ -321,7 +321,7 @@ fn outline_area(line: &[Run]) -> f64 {
 
 /// Computes how many vertices and how much area of the surface are in no patch, and the number and area of the surface's
 /// steps (edges where it jumps in height).
-fn missing(surface: &Heightfield, whole: &Assembled) -> Result<Missing> {
+fn missing(surface: &Heightfield, whole: &AssembledSheets) -> Result<Missing> {
     let net = &whole.net;
     let torn = (0..net.seams.len()).filter(|seam| net.is_torn(*seam));
     let high = |seam: usize| net.seams[seam].apart * polyline_length(&net.seams[seam].sides[0]);

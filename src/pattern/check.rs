@@ -27,7 +27,7 @@ pub(super) fn are_close(net: &SeamGraph, layout: &Layout, folded: &[usize]) -> b
 
 /// The patches of a sheet as one triangle mesh, in which points on the two sides of each fold are constrained to
 /// coincide.
-pub(super) struct Tied {
+pub(super) struct SheetMesh {
     patches: Vec<u32>,
     /// Number of the first vertex of each patch among the vertices of the joined mesh.
     starts: Vec<u32>,
@@ -35,13 +35,13 @@ pub(super) struct Tied {
     places: Vec<Point>,
 }
 
-impl Tied {
+impl SheetMesh {
     pub(super) fn new(
         net: &SeamGraph,
         layout: &Layout,
         patches: &[u32],
         folded: &[usize],
-    ) -> Result<Tied> {
+    ) -> Result<SheetMesh> {
         let mut pieces = Vec::new();
         let mut places: Vec<Point> = Vec::new();
         let mut starts = Vec::new();
@@ -57,7 +57,7 @@ impl Tied {
             pieces.extend(own.map(|(piece, corners)| (piece, corners.map(|v| first + v))));
         }
         let ties = ties(net, patches, &starts, folded);
-        Ok(Tied {
+        Ok(SheetMesh {
             patches: patches.to_vec(),
             starts,
             joint: ArapMesh::new(&places, pieces, ties)?,

@@ -35,11 +35,11 @@ impl Labels {
         flat_patch: &FlatPatch,
     ) -> Result<Option<Vec<u32>>> {
         let lattice = *surface.lattice();
-        let burden = flat_patch.burden(&lattice);
+        let vertex_strain_energy = flat_patch.vertex_strain_energy(&lattice);
         if flat_patch.is_too_small_to_cut() {
             return Ok(None);
         }
-        let samples: Vec<Sample> = (burden.iter())
+        let samples: Vec<Sample> = (vertex_strain_energy.iter())
             .map(|(i, square)| Sample::new(surface, *i, *square))
             .collect();
         let mut lines: Vec<(f64, [f64; 3])> = (0..CUT_DIRECTIONS)
@@ -60,7 +60,7 @@ impl Labels {
                 let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
                 a * x + b * y + c > 0.0
             };
-            let cut = self.try_cut(&lattice, part, &burden, beyond);
+            let cut = self.try_cut(&lattice, part, &vertex_strain_energy, beyond);
             if cut.is_some() {
                 return Ok(cut);
             }
@@ -73,15 +73,16 @@ impl Labels {
         &mut self,
         lattice: &Lattice,
         part: u32,
-        burden: &[(usize, f64)],
+        vertex_strain_energy: &[(usize, f64)],
         beyond: impl Fn(usize) -> bool,
     ) -> Option<Vec<u32>> {
         let first = self.origins.len() as u32;
-        let members = || burden.iter().map(|(i, _)| *i);
+        let members = || vertex_strain_energy.iter().map(|(i, _)| *i);
         let side: FxHashMap<usize, bool> = members().map(|i| (i, beyond(i))).collect();
         let same = |i: usize, k: usize| side[&i] == side[&k];
         let groups = connected_groups(lattice, members(), same);
-        let mut numbers = FxHashMap::with_capacity_and_hasher(burden.len(), Default::default());
+        let mut numbers =
+            FxHashMap::with_capacity_and_hasher(vertex_strain_energy.len(), Default::default());
         for (number, group) in groups.iter().enumerate() {
             numbers.extend(group.iter().map(|i| (*i, number)));
         }

@@ -4,7 +4,7 @@ use super::check::{crossing, strains};
 use super::flat_patch::Strain;
 use super::outline::Layout;
 use super::seam_graph::SeamGraph;
-use super::shape::lines;
+use super::sheet_lines::lines;
 use super::trim::PartFault;
 use crate::error::rounded;
 use crate::unroll::arap_mesh::StoppingCriteria;

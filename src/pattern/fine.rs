@@ -6,7 +6,7 @@
 //! lattice are the initial guess of those on the fine one, and the outlines are computed from creases and triangles
 //! of the fine lattice.
 
-use super::assembly::{Assembled, Settled, settle};
+use super::assembly::{AssembledSheets, FlatteningOutcome, settle};
 use super::coarse::Coarse;
 use super::labels::Labels;
 use super::layout::Arrangement;
@@ -27,10 +27,10 @@ pub(super) fn refine_sheets(
     surface: &Heightfield,
     patches: &Patches,
     coarse: &Coarse,
-    rough: &Assembled,
+    rough: &AssembledSheets,
     parts: Parts,
     is_finest: bool,
-) -> Result<std::result::Result<Assembled, String>> {
+) -> Result<std::result::Result<AssembledSheets, String>> {
     let (labels, origins) = transfer_labels(surface, patches, coarse, rough)?;
     let mut parts = parts.with_labels(
         surface,
@@ -99,20 +99,20 @@ pub(super) fn refine_sheets(
         let mut arrangement = Arrangement { layout, sheets };
         let settled = progress::part(0.9, || settle(&parts, &mut net, &mut arrangement))?;
         match settled {
-            Settled::Opened(wrong) if wrong.is_empty() || !is_finest => {
+            FlatteningOutcome::Opened(wrong) if wrong.is_empty() || !is_finest => {
                 if is_recut.contains(&true) {
                     let is_wanted = |part: u32| is_recut[part as usize];
                     let limit = parts.options.max_strain;
                     close_cuts(&mut net, &mut arrangement, limit, is_wanted)?;
                 }
-                return Ok(Ok(Assembled {
+                return Ok(Ok(AssembledSheets {
                     parts,
                     patches: found,
                     net,
                     arrangement,
                 }));
             }
-            Settled::Opened(wrong) => {
+            FlatteningOutcome::Opened(wrong) => {
                 parts.flat_patches = std::mem::take(&mut net.flat_patches);
                 for (part, reason) in wrong {
                     let first = parts.flat_patches.len() as u32;
@@ -127,7 +127,7 @@ pub(super) fn refine_sheets(
                     arrangement.sheets.extend(added.map(|part| vec![part]));
                 }
             }
-            Settled::Removable(part, removed) => {
+            FlatteningOutcome::Removable(part, removed) => {
                 parts.flat_patches = std::mem::take(&mut net.flat_patches);
                 parts.leave_out_vertices(part, removed)?;
             }
@@ -157,7 +157,7 @@ mod tests {
 
     /// A folded card on its own lattice, cut as decided on the coarse one. Some vertices of its border, on no coarse
     /// lattice, are drawn down.
-    fn torn_card(columns: &[usize]) -> Assembled {
+    fn torn_card(columns: &[usize]) -> AssembledSheets {
         let lattice = Lattice::new(140, 160, 1.0).unwrap();
         let torn: Vec<[f64; 2]> = columns
             .iter()
@@ -194,7 +194,7 @@ mod tests {
     #[test]
     fn a_sheet_that_has_not_changed_is_not_laid_flat_again() {
         let mut card = torn_card(&[]);
-        let places = |card: &Assembled| -> Vec<Vec<Point>> {
+        let places = |card: &AssembledSheets| -> Vec<Vec<Point>> {
             let all = card.net.flat_patches.iter().flatten();
             all.map(|flat_patch| flat_patch.places().to_vec()).collect()
         };

@@ -4,10 +4,10 @@ use nalgebra::Vector3;
 use rustc_hash::FxHashMap;
 
 use super::faces::Faces;
-use super::meeting::Meeting;
-use super::shape::drop_empty_lines;
+use super::junction::Junction;
+use super::label_spot::label_spot;
+use super::sheet_lines::drop_empty_lines;
 use super::sheets::{Fold, Run, Seam, Sheet};
-use super::spots::label_spot;
 use crate::math::index::NO_INDEX;
 use crate::math::planar::{Point2, orientation};
 use crate::scene::half_edges::{half_edge_ends, next_half_edge};
@@ -38,12 +38,12 @@ pub(super) struct FlatMesh<'a> {
 
 impl FlatMesh<'_> {
     /// Draws a sheet of given triangles; its area, strain and gaps are 0. Closed lines around less than `least` are left out,
-    /// unless they are the largest; `meeting` gives the point where seams end at a vertex.
+    /// unless they are the largest; `junction` gives the point where seams end at a vertex.
     pub(super) fn sheet(
         &self,
         members: &[u32],
         least: impl Fn(&[u32]) -> f64,
-        meeting: impl Fn(u32) -> Option<Meeting>,
+        junction: impl Fn(u32) -> Option<Junction>,
     ) -> Sheet {
         let sides: Vec<u32> = members.iter().flat_map(|t| 3 * t..3 * t + 3).collect();
         let faces = self.faces(members);
@@ -62,7 +62,7 @@ impl FlatMesh<'_> {
             label_spot(*patch, &own, &flat)
         };
         Sheet {
-            outlines: self.outlines(&sides, least, meeting),
+            outlines: self.outlines(&sides, least, junction),
             folds: self.folds(&sides),
             spots: patches.iter().map(spot).collect(),
             faces,
@@ -115,7 +115,7 @@ impl FlatMesh<'_> {
         &self,
         sides: &[u32],
         least: impl Fn(&[u32]) -> f64,
-        meeting: impl Fn(u32) -> Option<Meeting>,
+        junction: impl Fn(u32) -> Option<Junction>,
     ) -> Vec<Vec<Run>> {
         let mut is_done = vec![false; self.closed.len()];
         let mut lines: Vec<Vec<u32>> = Vec::new();
@@ -141,13 +141,13 @@ impl FlatMesh<'_> {
             (b - a).norm()
         };
         let mut outlines: Vec<(f64, Vec<Run>)> = (lines.iter())
-            .map(|line| (line.iter().map(long).sum(), self.runs(line, &meeting)))
+            .map(|line| (line.iter().map(long).sum(), self.runs(line, &junction)))
             .collect();
         outlines.sort_by(|(a, _), (b, _)| b.total_cmp(a));
         outlines.into_iter().map(|(_, runs)| runs).collect()
     }
 
-    fn runs(&self, line: &[u32], meeting: impl Fn(u32) -> Option<Meeting>) -> Vec<Run> {
+    fn runs(&self, line: &[u32], junction: impl Fn(u32) -> Option<Junction>) -> Vec<Run> {
         let n = line.len();
         // A border past a fold is one run, so that it is smoothed as one line; of exact faces each side is a run.
         let key = |i: usize| {
@@ -185,7 +185,7 @@ impl FlatMesh<'_> {
                 seam,
                 patch: seam.map(|_| self.patch(first)),
                 // A run that is a whole outline has no ends.
-                ends: [from, to].map(|v| meeting(v).filter(|_| from != to)),
+                ends: [from, to].map(|v| junction(v).filter(|_| from != to)),
                 points: without_straight(&points, self.rounding),
             }
         })

@@ -266,7 +266,7 @@ impl FlatPatch {
 
     /// Computes the contribution of each vertex of the patch to the strain: returns its index in the whole lattice, and
     /// the sum over its triangles of squared strain times area.
-    pub(super) fn burden(&self, whole: &Lattice) -> Vec<(usize, f64)> {
+    pub(super) fn vertex_strain_energy(&self, whole: &Lattice) -> Vec<(usize, f64)> {
         let mut shares = vec![0.0; self.places.len()];
         for (piece, corners) in self.pieces().filter(|(piece, _)| piece.exists()) {
             let [long, short] = piece.singular_values(corners.map(|v| self.places[v as usize]));

@@ -1,6 +1,6 @@
 //! Patterns of heightfields.
 
-use super::assembly::{Assembled, Assembly, assemble_sheets, draw_sheets};
+use super::assembly::{AssembledSheets, Assembly, assemble_sheets, draw_sheets};
 use super::coarse::Coarse;
 use super::fine::refine_sheets;
 use super::options::PatternOptions;
@@ -57,7 +57,7 @@ pub(super) fn find_sheets(
     patches: &Patches,
     options: &PatternOptions,
     finest: f64,
-) -> Result<Assembled> {
+) -> Result<AssembledSheets> {
     find_sheets_at(surface, patches, options, finest, true)
 }
 
@@ -68,7 +68,7 @@ fn find_sheets_at(
     options: &PatternOptions,
     mut finest: f64,
     is_finest: bool,
-) -> Result<Assembled> {
+) -> Result<AssembledSheets> {
     if let Some(coarse) = Coarse::new(surface, patches)? {
         finest = 1.0;
         for margin in COARSE_STRAIN_SHARES {
@@ -104,7 +104,7 @@ fn cut_and_join(
     patches: &Patches,
     options: &PatternOptions,
     finest: f64,
-) -> Result<Assembled> {
+) -> Result<AssembledSheets> {
     let mut parts = progress::part(0.3, || Parts::new(surface, patches, options))?;
     parts.finest = finest;
     progress::part(0.6, || parts.cut_strained())?;

@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use super::check::{Tied, are_close, strain_along, strains};
+use super::check::{SheetMesh, are_close, strain_along, strains};
 use super::fault::{SHEET_RELAXATION, fault, folds_of};
 use super::layout::{Arrangement, fits, longest_first, motion_to_join, seam_gap};
 use super::outline::Layout;
@@ -221,7 +221,7 @@ fn close_cut(
     };
     let mut is_closed = !joined && is_valid(net, &layout, 1.0);
     if joined {
-        let mut sheet = Tied::new(net, &layout, &members, &ties)?;
+        let mut sheet = SheetMesh::new(net, &layout, &members, &ties)?;
         // Most trials fail, and a few steps show that.
         for until in [TRIAL_RELAXATION, SHEET_RELAXATION] {
             let work = sheet.relax(net, &mut layout, until)?;

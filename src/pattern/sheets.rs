@@ -1,7 +1,7 @@
 //! The types of a pattern: sheets, their outlines and folds.
 
 use super::faces::Faces;
-use super::meeting::Meeting;
+use super::junction::Junction;
 use crate::shape::patches::Patches;
 
 /// A heightfield cut into flat sheets.
@@ -98,7 +98,7 @@ pub struct Run {
     /// Number of the patch whose side of the crease the run follows; `None` along the border.
     pub patch: Option<u32>,
     /// Points inside of the surface where cuts or folds meet and the run begins and ends; `None` at the border.
-    pub ends: [Option<Meeting>; 2],
+    pub ends: [Option<Junction>; 2],
     /// Polyline of the run on the flat sheet: at least two points; the first one is repeated at the end where the run
     /// is a whole outline.
     pub points: Vec<[f64; 2]>,
@@ -113,7 +113,7 @@ pub struct Fold {
     /// The bend that the fold is a part of, where the surface turns by several folds beside each other.
     pub bend: Option<Bend>,
     /// Points inside of the surface where cuts or folds meet and the fold begins and ends; `None` at the border.
-    pub ends: [Option<Meeting>; 2],
+    pub ends: [Option<Junction>; 2],
     /// Polyline of the fold on the flat sheet: at least two points; the first one is repeated at the end where the fold
     /// is closed.
     pub points: Vec<[f64; 2]>,

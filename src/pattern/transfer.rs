@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use super::assembly::Assembled;
+use super::assembly::AssembledSheets;
 use super::coarse::{Coarse, on_coarse};
 use super::flat_patch::{FlatPatch, MIN_CUT_VERTICES};
 use super::labels::connected_groups;
@@ -22,7 +22,7 @@ pub(super) fn transfer_labels(
     surface: &Heightfield,
     patches: &Patches,
     coarse: &Coarse,
-    rough: &Assembled,
+    rough: &AssembledSheets,
 ) -> Result<(Vec<u32>, Vec<u32>)> {
     let fine = *surface.lattice();
     let lattice = *coarse.surface.lattice();
@@ -74,7 +74,11 @@ pub(super) fn transfer_labels(
 
 /// Creates a part of the fine lattice with the flat positions it has on the coarse lattice; `None` if these do not
 /// determine the positions of all its vertices.
-pub(super) fn placed(parts: &Parts, part: usize, rough: &Assembled) -> Result<Option<FlatPatch>> {
+pub(super) fn placed(
+    parts: &Parts,
+    part: usize,
+    rough: &AssembledSheets,
+) -> Result<Option<FlatPatch>> {
     let Some(flat_patch) = rough.net.flat_patches[part].as_ref() else {
         return Ok(None);
     };

@@ -31,11 +31,11 @@ pub(super) fn removable_vertices(
     part_fault: PartFault,
     most: impl Fn(usize) -> usize,
 ) -> Option<Vec<usize>> {
-    let burden = flat_patch.burden(lattice);
-    let most = most(burden.len());
+    let vertex_strain_energy = flat_patch.vertex_strain_energy(lattice);
+    let most = most(vertex_strain_energy.len());
     let removed: FxHashMap<usize, ()> = match part_fault {
         PartFault::Strain(limit) => heaviest(
-            &burden,
+            &vertex_strain_energy,
             TRIMMED_STRAIN_SHARE * limit / flat_patch.strain().rms(),
         ),
         PartFault::Flipped => flat_patch.flipped(lattice),
@@ -47,7 +47,10 @@ pub(super) fn removable_vertices(
         return None;
     }
     let together = |inside: &dyn Fn(usize) -> bool| {
-        let members = burden.iter().map(|(i, _)| *i).filter(|i| inside(*i));
+        let members = vertex_strain_energy
+            .iter()
+            .map(|(i, _)| *i)
+            .filter(|i| inside(*i));
         connected_groups(lattice, members, |_, _| true)
     };
     let whole = together(&|i| !removed.contains_key(&i)).len() == 1;
@@ -61,9 +64,9 @@ pub(super) fn removable_vertices(
 }
 
 /// Finds the smallest set of vertices without which the sum of squared strains falls to a given share of the whole,
-/// from each vertex's contribution to that sum (`burden`).
-fn heaviest(burden: &[(usize, f64)], share: f64) -> Vec<usize> {
-    let mut sorted = burden.to_vec();
+/// from each vertex's contribution to that sum (`vertex_strain_energy`).
+fn heaviest(vertex_strain_energy: &[(usize, f64)], share: f64) -> Vec<usize> {
+    let mut sorted = vertex_strain_energy.to_vec();
     sorted.sort_by(|a, b| b.1.total_cmp(&a.1));
     let all: f64 = sorted.iter().map(|(_, square)| square).sum();
     let mut left = all;

@@ -64,7 +64,7 @@ impl Triangulation {
             *number = vertices.len() as u32;
             vertices.push(i as u32);
             let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
-            positions.push(frame.unview([x, y, surface.heights()[i]]));
+            positions.push(frame.to_world([x, y, surface.heights()[i]]));
         }
         let mut triangles = room(count)?;
         triangles.extend(whole().map(|triangle| triangle.map(|i| numbers[i])));

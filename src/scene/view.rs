@@ -137,7 +137,7 @@ impl Frame {
     }
 
     /// Transforms a point from the image's axes to the mesh's.
-    pub fn unview(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    pub fn to_world(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|k| x * self.right[k] + y * self.up[k] + z * self.towards[k])
     }
 }

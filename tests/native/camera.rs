@@ -63,7 +63,7 @@ fn heights(samples: &Samples) -> Vec<Point> {
             [x, y, field.height(r, c)]
         })
         .filter(|p| p[2].is_finite())
-        .map(|p| samples.frame().unview(p))
+        .map(|p| samples.frame().to_world(p))
         .collect()
 }
 

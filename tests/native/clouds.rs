@@ -62,7 +62,7 @@ fn every_view_has_its_axes() {
         let seen: Vec<_> = vertices(&samples).filter(|(_, z)| z.is_finite()).collect();
         assert!(seen.len() > 60, "{name}");
         for ([x, y], z) in seen {
-            let [x, y, z] = samples.frame().unview([x, y, z]);
+            let [x, y, z] = samples.frame().to_world([x, y, z]);
             assert!((10.0 * x + 11.0 * y + 9.5 * z - 1.0).abs() < 1e-7, "{name}");
             assert!(x > -0.6 && y > -0.6 && x < 8.6 && y < 8.6, "{name}");
         }
@@ -114,7 +114,7 @@ fn what_is_behind_is_out_of_sight() {
     for (view, front) in [(DOWN, 9.0), (back, 0.0)] {
         let samples = sample(&mesh, view, Resolution::Spacing(1.0)).unwrap();
         for ([x, y], z) in vertices(&samples).filter(|(_, z)| z.is_finite()) {
-            let [x, _, z] = samples.frame().unview([x, y, z]);
+            let [x, _, z] = samples.frame().to_world([x, y, z]);
             let nearer_edge = (x - 10.0).abs() < 1.0;
             let expected = if x < 10.0 { front } else { 0.0 };
             assert!(nearer_edge || (z - expected).abs() < 1e-9, "{x} {z}");

@@ -53,7 +53,7 @@ fn check_against_rays(mesh: &Mesh, samples: &Samples, tolerance: f64) {
     let far = 1e3;
     for index in 0..lattice.len() {
         let [x, y] = lattice.position(index / lattice.cols(), index % lattice.cols());
-        let origin = samples.frame().unview([x, y, far]);
+        let origin = samples.frame().to_world([x, y, far]);
         let hits = (0..mesh.triangles().len())
             .filter_map(|i| intersect(origin, negated(towards), corners(mesh, i)));
         let (mut surely, mut perhaps) = (f64::NEG_INFINITY, Vec::new());
@@ -183,7 +183,7 @@ proptest! {
         prop_assert!((dot(direction, towards) + length).abs() < 1e-9 * length);
         prop_assert!(up[1] >= 0.0 && right[1].abs() < 1e-12);
         let point = [1.0, -2.0, 3.5];
-        let back = frame.unview(frame.view(point));
+        let back = frame.to_world(frame.view(point));
         prop_assert!((0..3).all(|k| (back[k] - point[k]).abs() < 1e-12));
     }
 }
@@ -220,7 +220,7 @@ fn a_tilted_plane_from_all_six_sides() {
         for index in (0..lattice.len()).filter(|i| samples.hit(*i).is_some()) {
             let [u, v] = lattice.position(index / lattice.cols(), index % lattice.cols());
             let z = samples.heightfield().heights()[index];
-            let [x, y, z] = samples.frame().unview([u, v, z]);
+            let [x, y, z] = samples.frame().to_world([u, v, z]);
             assert!((2.0 * x + 3.0 * y + 5.0 * z - 1.0).abs() < 1e-12, "{name}");
             hits += 1;
         }
@@ -329,7 +329,7 @@ fn best_fit_looks_straight_at_a_sheet_from_its_front() {
         let turned = |x: f64, y: f64| {
             let x = if flip { -x } else { x };
             let bump = 0.02 * (9.0 * x).sin() * (7.0 * y).cos();
-            frame.unview([100.0 + 2.0 * x, y, bump - 5.0])
+            frame.to_world([100.0 + 2.0 * x, y, bump - 5.0])
         };
         let found = View::BestFit.frame(&sheet(20, turned)).unwrap();
         let facing = dot(found.towards, normal);

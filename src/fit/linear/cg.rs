@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use super::grid::part;
 use super::multigrid::Multigrid;
-use super::precise::Precise;
+use super::refined_solver::RefinedSolver;
 use super::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolver};
 use crate::error::{Result, try_filled};
 use crate::fit::heightfields::Problem;
@@ -189,7 +189,7 @@ impl ZStepSolver<LatticeOperator> for ConjugateGradients {
         x: &mut [f64],
         criteria: CgCriteria,
     ) -> Result<usize> {
-        let mut precise = Precise::with_residual(problem, std::mem::take(residual))?;
+        let mut precise = RefinedSolver::with_residual(problem, std::mem::take(residual))?;
         let goal = criteria.tolerance * precise.distance(problem, &self.multigrid);
         let limits = (goal, criteria.max_iterations);
         let iterations = precise.solve(problem, self.rho, &mut self.multigrid, x, limits);

@@ -4,6 +4,6 @@ mod border;
 pub(crate) mod cg;
 pub(crate) mod grid;
 pub(crate) mod multigrid;
-pub(crate) mod precise;
+pub(crate) mod refined_solver;
 pub(crate) mod transfer;
 pub(crate) mod z_step_solver;

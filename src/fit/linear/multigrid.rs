@@ -52,7 +52,7 @@ const SPRING_STIFFNESS: f64 = 0.03;
 #[derive(Debug, Clone)]
 pub(crate) struct Multigrid {
     /// Lattices of the hierarchy, the finest first.
-    floors: Vec<Floor>,
+    levels: Vec<MultigridLevel>,
     /// Transfer from each lattice to the next coarser one.
     transfers: Vec<Transfer>,
     /// Number of lattices that a V-cycle visits.
@@ -62,7 +62,7 @@ pub(crate) struct Multigrid {
 
 /// One lattice of the multigrid hierarchy with its matrix and work vectors.
 #[derive(Debug, Clone)]
-struct Floor {
+struct MultigridLevel {
     grid: Grid,
     /// Fidelity weights and constraints of the lattice's vertices; `None` if all vertices have weight 1 and none is
     /// constrained.
@@ -104,7 +104,7 @@ impl Multigrid {
             || transfers().collect::<Vec<Transfer>>(),
             || stencil_counts(domains),
         );
-        let mut floors: Vec<Floor> = Vec::with_capacity(domains.len());
+        let mut levels: Vec<MultigridLevel> = Vec::with_capacity(domains.len());
         let mut spacing = problem.operator.spacing;
         let varied = matches!(problem.fidelity, PerCell::Each(_));
         for (i, (domain, stencils)) in domains.iter().zip(counts?).enumerate() {
@@ -114,7 +114,7 @@ impl Multigrid {
             } else {
                 Vec::new()
             };
-            let mut floor = Floor {
+            let mut level = MultigridLevel {
                 grid: Grid::new(domain.clone(), spacing, constrained, varied)?,
                 shares: None,
                 direct: None,
@@ -124,16 +124,16 @@ impl Multigrid {
                 step: zeros()?,
                 residual: zeros()?,
             };
-            floor.grid.stencils = stencils;
-            floor.shares = match floors.last_mut() {
+            level.grid.stencils = stencils;
+            level.shares = match levels.last_mut() {
                 None => Shares::from_problem(problem)?,
-                Some(finer) => finer.coarser_shares(&transfers[i - 1], &mut floor)?,
+                Some(finer) => finer.coarser_shares(&transfers[i - 1], &mut level)?,
             };
-            floors.push(floor);
+            levels.push(level);
             spacing *= 2.0;
         }
         let mut multigrid = Multigrid {
-            floors,
+            levels,
             transfers,
             depth: 1,
             lambda: problem.lambda,
@@ -145,10 +145,10 @@ impl Multigrid {
     /// Changes ρ in the matrices of all lattices.
     pub(crate) fn set(&mut self, rho: f64) {
         let typical = 2.0 * self.lambda;
-        let spring = SPRING_STIFFNESS * self.floors[0].grid.stiffness(rho);
-        for floor in &mut self.floors {
-            match &floor.shares {
-                None => floor.grid.set(rho, typical, |_| typical),
+        let spring = SPRING_STIFFNESS * self.levels[0].grid.stiffness(rho);
+        for level in &mut self.levels {
+            match &level.shares {
+                None => level.grid.set(rho, typical, |_| typical),
                 Some(Shares {
                     fidelity,
                     constrained,
@@ -157,32 +157,32 @@ impl Multigrid {
                         typical * lanes::double(fidelity[cell])
                             + spring * lanes::double(constrained[cell])
                     };
-                    floor.grid.set(rho, typical, each);
+                    level.grid.set(rho, typical, each);
                 }
             }
         }
-        let good = |floor: &Floor| floor.grid.condition() <= MAX_BOTTOM_CONDITION;
-        let last = self.floors.len() - 1;
-        self.depth = self.floors.iter().position(good).unwrap_or(last) + 1;
-        self.floors[self.depth - 1].prepare();
+        let good = |level: &MultigridLevel| level.grid.condition() <= MAX_BOTTOM_CONDITION;
+        let last = self.levels.len() - 1;
+        self.depth = self.levels.iter().position(good).unwrap_or(last) + 1;
+        self.levels[self.depth - 1].prepare();
     }
 
     /// Matrix of the z-step on the finest lattice.
     pub(crate) fn matrix(&self) -> &Grid {
-        &self.floors[0].grid
+        &self.levels[0].grid
     }
 
     /// Matrix of the z-step on the finest lattice, for passes that use its buffers.
     pub(crate) fn matrix_mut(&mut self) -> &mut Grid {
-        &mut self.floors[0].grid
+        &mut self.levels[0].grid
     }
 
     /// Returns an approximation of `A⁻¹ b` by one V-cycle; `b` is the same afterwards.
     pub(crate) fn precondition(&mut self, b: &mut Vec<f32>) -> &[f32] {
-        std::mem::swap(b, &mut self.floors[0].b);
-        cycle(&mut self.floors[..self.depth], &self.transfers);
-        std::mem::swap(b, &mut self.floors[0].b);
-        &self.floors[0].x
+        std::mem::swap(b, &mut self.levels[0].b);
+        cycle(&mut self.levels[..self.depth], &self.transfers);
+        std::mem::swap(b, &mut self.levels[0].b);
+        &self.levels[0].x
     }
 }
 
@@ -199,8 +199,8 @@ fn stencil_counts(domains: &[Arc<Domain>]) -> Result<Vec<PerCell<f32>>> {
 }
 
 /// Runs a V-cycle: solves `A x = b` approximately on the first lattice with the help of the coarser ones.
-fn cycle(floors: &mut [Floor], transfers: &[Transfer]) {
-    let Some((fine, below)) = floors.split_first_mut() else {
+fn cycle(levels: &mut [MultigridLevel], transfers: &[Transfer]) {
+    let Some((fine, below)) = levels.split_first_mut() else {
         return;
     };
     let (Some(coarse), Some((transfer, further))) = (below.first_mut(), transfers.split_first())
@@ -250,13 +250,13 @@ impl Shares {
     }
 }
 
-impl Floor {
+impl MultigridLevel {
     /// Computes the mean fidelity weights and constraints of the next coarser lattice's vertices; leaves the work
     /// vectors clean.
     fn coarser_shares(
         &mut self,
         transfer: &Transfer,
-        coarse: &mut Floor,
+        coarse: &mut MultigridLevel,
     ) -> Result<Option<Shares>> {
         let Some(shares) = &self.shares else {
             return Ok(None);

@@ -14,7 +14,7 @@ use crate::error::{Error, Result, try_filled};
 use crate::fit::energy::problem;
 use crate::fit::energy::spectral_penalty::{HuberParameters, PenaltyKind};
 use crate::fit::operator::sparse::matrix::SparseMatrix;
-use crate::fit::operator::sparse::{Parts, Rows, SparseOperator};
+use crate::fit::operator::sparse::{Rows, SparseOperator, SparseOperatorParts};
 use crate::lattice::per_cell::PerCell;
 use crate::math::index::NO_INDEX;
 
@@ -169,7 +169,7 @@ impl Linearisation {
             let stencils = ring.filter(|stencil| *stencil != NO_INDEX);
             beside.push(stencils.map(|stencil| (stencil, ())));
         }
-        let operator = SparseOperator::new(Parts {
+        let operator = SparseOperator::new(SparseOperatorParts {
             beside,
             areas: centres
                 .iter()

@@ -34,7 +34,7 @@ const DEFAULT_TOLERANCE: f64 = 0.002;
 
 /// Noise and scale of an input, known before its solve.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Known {
+pub(crate) struct InputStatistics {
     pub scale: f64,
     pub noise: Option<Noise>,
     /// Difference between the highest and the lowest height.
@@ -43,7 +43,7 @@ pub(crate) struct Known {
     pub is_measured: bool,
 }
 
-impl Known {
+impl InputStatistics {
     pub(crate) fn of(input: &Input, options: &Options) -> Result<Self> {
         let wanted = options.lambda_or_default() == Lambda::Auto
             || options.energy_or_default() == Energy::Huber;
@@ -51,7 +51,7 @@ impl Known {
         let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| {
             [low.min(*z), high.max(*z)]
         });
-        Ok(Known {
+        Ok(InputStatistics {
             range: (high - low).max(0.0),
             is_measured: input.is_measured,
             scale: options.normalization.factor(&input.field),
@@ -68,12 +68,12 @@ impl Known {
 /// [`WITHOUT_NOISE`] for an input without noise, or [`Lambda::Medium`] where the noise cannot be measured.
 pub(crate) fn initial_options(
     options: &Options,
-    Known {
+    InputStatistics {
         noise,
         scale,
         range,
         is_measured,
-    }: Known,
+    }: InputStatistics,
 ) -> (Options, LambdaChoice, Option<Aim>) {
     let mut choice = LambdaChoice {
         reason: LambdaReason::Unknown,
@@ -138,10 +138,10 @@ pub(crate) fn initial_options(
 /// Options with the default Huber parameters filled in where none are given, kept from following noise: flatness grows in
 /// proportion to the ratio of λ to the λ that suits the noise, up to the nuclear norm, which has no crease passes.
 pub(crate) fn with_huber_defaults(options: &Options, noise: Option<Noise>, scale: f64) -> Options {
-    let loudness = noise.map_or(0.0, |noise| {
+    let noise_to_signal = noise.map_or(0.0, |noise| {
         options.lambda_or_default().value() * noise.product * scale * scale / WHITE_LAMBDA_NOISE
     });
-    let flatness = HuberOptions::SMOOTH.flatness * loudness.max(1.0);
+    let flatness = HuberOptions::SMOOTH.flatness * noise_to_signal.max(1.0);
     let quiet = HuberOptions {
         flatness: flatness.min(1.0),
         ..HuberOptions::SMOOTH

@@ -18,7 +18,7 @@ const HELD_OUT_CLASSES: usize = 3;
 /// Confidence of the mean of the six neighbours that replaces a held-out height, as a share of the largest confidence:
 /// large enough that the solve converges fast, too small to change its surface
 /// (`benches/scenes.md`, One constant at a time).
-const MADE_UP: f64 = 0.01;
+const SYNTHETIC_CONFIDENCE_SHARE: f64 = 0.01;
 
 /// Input without the heights that are held out, and these heights.
 #[derive(Debug, Clone)]
@@ -58,7 +58,7 @@ impl HeldOut {
                 };
                 samples.push((vertex, heights[vertex], input.weight(vertex)));
                 heights[vertex] = [a, b, c, d, e, f].map(|v| heights[v]).iter().sum::<f64>() / 6.0;
-                confidence[vertex] = MADE_UP * largest;
+                confidence[vertex] = SYNTHETIC_CONFIDENCE_SHARE * largest;
             }
         }
         if samples.len() < MIN_NOISE_SAMPLES {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::closed_form::{Known, with_huber_defaults};
+use super::closed_form::{InputStatistics, with_huber_defaults};
 use super::held_out::HeldOut;
 use super::merge::merge;
 use super::refinement::{Aim, Next, Refinement};
@@ -34,7 +34,7 @@ const SEARCH_GAP: f64 = 0.05;
 /// Choice of λ and of the penalty in progress.
 #[derive(Debug, Clone)]
 pub(crate) struct Search {
-    known: Known,
+    statistics: InputStatistics,
     /// Options of the caller, with the λ that is best so far.
     first: Options,
     stage: Stage,
@@ -81,7 +81,7 @@ impl Search {
     pub(crate) fn new(
         input: &Input,
         first: &Options,
-        known: Known,
+        statistics: InputStatistics,
         aim: Aim,
     ) -> Result<Option<Self>> {
         let coarse = coarse_input(input)?;
@@ -89,9 +89,9 @@ impl Search {
             return Ok(None);
         }
         // Noise is no guide where a distance is aimed at.
-        let known = Known {
-            noise: known.noise.filter(|_| matches!(aim, Aim::Noise(_))),
-            ..known
+        let statistics = InputStatistics {
+            noise: statistics.noise.filter(|_| matches!(aim, Aim::Noise(_))),
+            ..statistics
         };
         let spacings = coarse.field.lattice().spacing() / input.field.lattice().spacing();
         let refinement = Refinement::new(aim, spacings);
@@ -99,9 +99,9 @@ impl Search {
             Aim::Noise(_) => HuberOptions::ANY,
             Aim::Distance { .. } => HuberOptions::SMOOTH,
         };
-        let solve = trial(&coarse, &trial_options(first, penalty), known, None)?;
+        let solve = trial(&coarse, &trial_options(first, penalty), statistics, None)?;
         Ok(Some(Search {
-            known,
+            statistics,
             first: *first,
             stage: Stage::Fidelity {
                 input: coarse,
@@ -109,7 +109,7 @@ impl Search {
             },
             solve: Box::new(solve),
             penalty,
-            is_independent: known
+            is_independent: statistics
                 .noise
                 .is_some_and(|noise| spacings.log2() >= noise.merged as f64),
             is_compared: false,
@@ -154,7 +154,7 @@ impl Search {
                         self.raises += usize::from(next > lambda);
                         self.first = self.first.lambda(next);
                         let options = trial_options(&self.first, self.penalty);
-                        *self.solve = trial(input, &options, self.known, warm_start)?;
+                        *self.solve = trial(input, &options, self.statistics, warm_start)?;
                         Ok(true)
                     }
                     Next::Keep(next) => {
@@ -175,7 +175,12 @@ impl Search {
                     .solve
                     .warm_start(comparison.held_out.input.field.lattice());
                 let options = trial_options(&self.first, penalty);
-                *self.solve = trial(&comparison.held_out.input, &options, self.known, warm_start)?;
+                *self.solve = trial(
+                    &comparison.held_out.input,
+                    &options,
+                    self.statistics,
+                    warm_start,
+                )?;
                 Ok(true)
             }
         }
@@ -200,7 +205,7 @@ impl Search {
         *self.solve = trial(
             &comparison.held_out.input,
             &trial_options(&self.first, self.penalty),
-            self.known,
+            self.statistics,
             None,
         )?;
         self.stage = Stage::Penalty(comparison);
@@ -269,7 +274,7 @@ pub(crate) fn trial_options(first: &Options, penalty: HuberOptions) -> Options {
 fn trial(
     input: &Input,
     options: &Options,
-    Known { scale, noise, .. }: Known,
+    InputStatistics { scale, noise, .. }: InputStatistics,
     warm_start: Option<Arc<WarmStart>>,
 ) -> Result<ComponentSolver> {
     let started = Instant::now();

@@ -2,7 +2,7 @@
 
 use super::body::Body;
 use super::join::Joined;
-use super::meeting::Meetings;
+use super::junction::Junctions;
 use super::seams::Seams;
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
@@ -34,7 +34,7 @@ pub(super) fn draw_sheets(
     joined: &[Joined],
     mut missing: Missing,
 ) -> Result<MeshPattern> {
-    let meetings = Meetings::new(body, seams, joined);
+    let junctions = Junctions::new(body, seams, joined);
     let flat = flat_mesh(body, seams, joined);
     let sheet = |own: &Joined| {
         // A cut that is within the sheet and hardly opens is no outline, but a hole of the mesh is, however small.
@@ -47,7 +47,7 @@ pub(super) fn draw_sheets(
             area: own.laid.area,
             strain: own.laid.strain,
             seam_gap: own.gap,
-            ..flat.sheet(&own.laid.members, least, |vertex| meetings.at(vertex))
+            ..flat.sheet(&own.laid.members, least, |vertex| junctions.at(vertex))
         }
     };
     let mut sheets: Vec<Sheet> = joined.iter().map(sheet).collect();

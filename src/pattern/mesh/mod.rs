@@ -7,8 +7,8 @@
 mod body;
 mod draw;
 mod join;
+mod junction;
 mod lay;
-mod meeting;
 mod seams;
 
 use std::collections::BTreeMap;

@@ -169,7 +169,7 @@ fn sum_of_lanes<T: Real>(four: T::Four) -> T {
 
 /// The components that a [`SparseOperator`] is made of.
 #[derive(Debug, Clone)]
-pub(crate) struct Parts {
+pub(crate) struct SparseOperatorParts {
     pub rows: Rows<f64>,
     /// Area of each stencil, its weight in every sum over stencils; empty if each is 1.
     pub areas: Vec<f64>,
@@ -213,8 +213,8 @@ impl SparseOperator {
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub(crate) fn new(parts: Parts) -> Result<Self> {
-        let Parts {
+    pub(crate) fn new(parts: SparseOperatorParts) -> Result<Self> {
+        let SparseOperatorParts {
             rows,
             areas,
             beside,

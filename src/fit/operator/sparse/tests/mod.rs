@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::gradients::SparseGradients;
 use super::matrix::SparseMatrix;
-use super::{Parts, Rows, SparseOperator};
+use super::{Rows, SparseOperator, SparseOperatorParts};
 use crate::error::Result;
 use crate::fit::admm::iterate::Iterate;
 use crate::fit::admm::parameters::AdmmParameters;
@@ -81,7 +81,7 @@ fn operator_of(
         most - least
     };
     let size = extent(0).max(extent(1));
-    SparseOperator::new(Parts {
+    SparseOperator::new(SparseOperatorParts {
         rows,
         areas: Vec::new(),
         beside,

@@ -6,12 +6,12 @@ use std::f64::consts::TAU;
 use super::body::Body;
 use super::join::Joined;
 use super::seams::{Seam, Seams};
-use crate::pattern::Meeting;
-use crate::pattern::meeting::{MIN_ANGLE_RADIUS_LENGTHS, angle_reach};
+use crate::pattern::Junction;
+use crate::pattern::junction::{MIN_ANGLE_RADIUS_LENGTHS, angle_reach};
 
 /// The points of a mesh where cuts or folds end or meet, with the number of the vertex there as the key.
-pub(super) struct Meetings {
-    of: BTreeMap<u32, Meeting>,
+pub(super) struct Junctions {
+    of: BTreeMap<u32, Junction>,
 }
 
 /// Data of a vertex where seams end, gathered before its angle is measured.
@@ -25,14 +25,14 @@ struct PointSeams {
     most: usize,
 }
 
-impl Meetings {
+impl Junctions {
     /// Returns the point where cuts or folds meet at a vertex; `None` if the border is near, or if a seam that ends there
     /// is too short or another cut too near to measure an angle.
-    pub(super) fn at(&self, vertex: u32) -> Option<Meeting> {
+    pub(super) fn at(&self, vertex: u32) -> Option<Junction> {
         self.of.get(&vertex).copied()
     }
 
-    pub(super) fn new(body: &Body, seams: &Seams, sheets: &[Joined]) -> Meetings {
+    pub(super) fn new(body: &Body, seams: &Seams, sheets: &[Joined]) -> Junctions {
         let mut whole = vec![false; seams.all.len()];
         for seam in sheets.iter().flat_map(|sheet| &sheet.whole) {
             whole[*seam] = true;
@@ -69,7 +69,7 @@ impl Meetings {
             .flat_map(|(seam, _)| seam.vertices.iter().map(|v| (*v, ends(&seam.vertices))))
             .collect();
         let around = AngleDefects::new(body);
-        let meeting = |(vertex, found): (u32, PointSeams)| {
+        let junction = |(vertex, found): (u32, PointSeams)| {
             let others = cut_vertices
                 .iter()
                 .filter(|(_, ends)| !ends.contains(&vertex));
@@ -84,17 +84,17 @@ impl Meetings {
             if short || found.edges != found.cuts {
                 return None;
             }
-            let meeting = Meeting {
+            let junction = Junction {
                 number: vertex as usize,
                 place: body.places[vertex as usize].into(),
                 angle: around.angle(vertex, reach)?,
                 reach,
                 cuts: found.cuts,
             };
-            Some((vertex, meeting))
+            Some((vertex, junction))
         };
-        Meetings {
-            of: all.into_iter().filter_map(meeting).collect(),
+        Junctions {
+            of: all.into_iter().filter_map(junction).collect(),
         }
     }
 }

@@ -38,7 +38,7 @@ pub(super) fn angle_reach(spacing: f64, shortest: f64, other: f64) -> f64 {
 /// A point inside of the surface where cuts or folds end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub struct Meeting {
+pub struct Junction {
     /// Number of the point, which is the same on all sheets.
     pub number: usize,
     /// Position of the point on the surface, in the surface's units.
@@ -55,15 +55,15 @@ pub struct Meeting {
 
 /// The points of a heightfield where cuts or folds end or meet, each with its node in the graph of seams as the
 /// key.
-pub(super) struct Meetings {
-    all: Vec<Option<Meeting>>,
+pub(super) struct Junctions {
+    all: Vec<Option<Junction>>,
     of: FxHashMap<Node, usize>,
 }
 
-impl Meetings {
+impl Junctions {
     /// Returns the point at a node of the seam graph; `None` at the border, at steps, and where a seam that ends there
     /// is too short to measure an angle.
-    pub(super) fn at(&self, node: Node) -> Option<Meeting> {
+    pub(super) fn at(&self, node: Node) -> Option<Junction> {
         self.of.get(&node).and_then(|number| self.all[*number])
     }
 
@@ -72,7 +72,7 @@ impl Meetings {
         labels: &Labels,
         net: &SeamGraph,
         layout: &Layout,
-    ) -> Result<Meetings> {
+    ) -> Result<Junctions> {
         let ends = |seam: usize| {
             let nodes = &net.seams[seam].nodes;
             [nodes[0], nodes[nodes.len() - 1]]
@@ -145,7 +145,7 @@ impl Meetings {
             if found.torn || found.count == 0.0 || reach < MIN_ANGLE_RADIUS_LENGTHS * net.spacing {
                 return None;
             }
-            Some(Meeting {
+            Some(Junction {
                 number,
                 place,
                 angle: around.angle(place, reach)?,
@@ -153,7 +153,7 @@ impl Meetings {
                 cuts: found.cuts,
             })
         });
-        Ok(Meetings {
+        Ok(Junctions {
             all: all.collect(),
             of,
         })
@@ -165,7 +165,7 @@ impl Meetings {
         net: &SeamGraph,
         layout: &Layout,
         patches: &[u32],
-    ) -> Vec<(Point, Meeting)> {
+    ) -> Vec<(Point, Junction)> {
         let corners = layout.outlines(net, patches).into_iter().flatten();
         corners
             .filter_map(|corner| Some((corner.place, self.at(corner.node)?)))

@@ -1,11 +1,11 @@
 //! Outlines and folds of a sheet, made from the nodes of its seams: grouped into runs, extended and simplified.
 
+use super::junction::Junctions;
 use super::line::{meeting, restore_corners, simplify_polyline, simplify_ring};
-use super::meeting::Meetings;
 use super::outline::{Corner, Layout};
+use super::outline_loops::{Runs, Side, remove_loops};
 use super::seam_graph::{FOUR_WAY_JUNCTION_RADIUS, HEADING_NODES, SeamGraph, is_triangle};
 use super::sheets::{Fold, Run, Seam};
-use super::simple::{Runs, Side, remove_loops};
 use crate::math::planar::{polygon_area, polyline_length};
 use crate::unroll::flat_triangle::Point;
 
@@ -58,11 +58,11 @@ pub(super) fn outlines(
     net: &SeamGraph,
     layout: &Layout,
     patches: &[u32],
-    meetings: &Meetings,
+    junctions: &Junctions,
     seam: impl Fn(usize) -> Seam,
 ) -> (Vec<Vec<Run>>, usize) {
     let (lines, loops) = lines(net, layout, patches);
-    let corners = meetings.corners(net, layout, patches);
+    let corners = junctions.corners(net, layout, patches);
     let end = |place: Point| {
         // The point may be missing from the outline, because a loop was cut off there.
         let away = |corner: &Point| (corner - place).norm();
@@ -70,7 +70,7 @@ pub(super) fn outlines(
             .iter()
             .filter(|(corner, _)| away(corner) <= FOUR_WAY_JUNCTION_RADIUS * net.spacing);
         let here = here.min_by(|(a, _), (b, _)| away(a).total_cmp(&away(b)));
-        here.map(|(_, meeting)| *meeting)
+        here.map(|(_, junction)| *junction)
     };
     let mut out: Vec<(f64, Vec<Run>)> = (lines.into_iter())
         .map(|runs| {
@@ -94,7 +94,7 @@ pub(super) fn folds(
     layout: &Layout,
     patches: &[u32],
     outlines: &[Vec<Run>],
-    meetings: &Meetings,
+    junctions: &Junctions,
     seam: impl Fn(usize) -> Seam,
 ) -> Vec<Fold> {
     let own = |number: &usize| {
@@ -120,7 +120,7 @@ pub(super) fn folds(
         Fold {
             seam: seam(number),
             bend: None,
-            ends: [nodes[0], nodes[last]].map(|node| meetings.at(node)),
+            ends: [nodes[0], nodes[last]].map(|node| junctions.at(node)),
             points: pairs(&simplify_polyline(
                 &points,
                 SIMPLIFICATION_TOLERANCE_SPACINGS * net.spacing,

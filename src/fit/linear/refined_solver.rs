@@ -12,7 +12,7 @@ use crate::math::lanes;
 
 /// Conjugate gradients in double precision for the z-step's system `A x = b`, `A = 2λw + ρCᵀC`, over the vertices that
 /// are not constrained.
-pub(crate) struct Precise {
+pub(crate) struct RefinedSolver {
     /// Residual `b − A x`, to be written before a solve; 0 outside the domain's active vertices.
     pub residual: Vec<f64>,
     direction: Vec<f64>,
@@ -21,18 +21,18 @@ pub(crate) struct Precise {
     rolling: Rolling<f64>,
 }
 
-impl Precise {
+impl RefinedSolver {
     /// Allocates the solver of a problem, with a residual of 0.
     pub(crate) fn new(problem: &Problem) -> Result<Self> {
         let cells = problem.operator.domain.cells();
-        Precise::with_residual(problem, try_filled("conjugate gradients", cells, 0.0)?)
+        RefinedSolver::with_residual(problem, try_filled("conjugate gradients", cells, 0.0)?)
     }
 
     /// Allocates the solver of a problem, with a given residual.
     pub(crate) fn with_residual(problem: &Problem, residual: Vec<f64>) -> Result<Self> {
         let cells = residual.len();
         let zeros = || try_filled("conjugate gradients", cells, 0.0);
-        Ok(Precise {
+        Ok(RefinedSolver {
             residual,
             direction: zeros()?,
             image: zeros()?,
@@ -112,7 +112,7 @@ impl Precise {
 
     /// Computes `image = A direction`, and returns the product of both vectors.
     fn apply(&mut self, problem: &Problem, rho: f64) -> f64 {
-        let Precise {
+        let RefinedSolver {
             direction,
             image,
             rolling,

@@ -15,8 +15,8 @@ import { inBrowser, inNode } from './wasm.mjs';
 export const steps = [
   { name: 'format', seconds: 2, quick: true, what: 'the layout of the Rust code', run: format },
   { name: 'size', seconds: 1, quick: true, what: 'lines and tuned constants beside their budgets', run: size },
-  { name: 'lint', seconds: 67, quick: true, what: 'clippy', run: lint },
-  { name: 'rust', seconds: 180, what: 'the tests beside the code, and those of the whole library', run: rustTests },
+  { name: 'lint', seconds: 83, quick: true, what: 'clippy', run: lint },
+  { name: 'rust', seconds: 240, what: 'the tests beside the code, and those of the whole library', run: rustTests },
   { name: 'rust-doc', seconds: 20, what: 'the examples in the documentation', run: docTests },
   { name: 'docs', seconds: 20, what: "the documentation's links and examples", run: docs },
   {
@@ -35,6 +35,6 @@ export const steps = [
   { name: 'wasm-node', seconds: 7, beside: true, what: 'the wasm in Node', run: inNode('wasm_node') },
   { name: 'wasm-browser', seconds: 5, beside: true, what: "the wasm in Chromium's main thread", run: inBrowser('wasm_browser') },
   { name: 'wasm-worker', seconds: 5, beside: true, what: 'the wasm in a dedicated worker in Chromium', run: inBrowser('wasm_worker') },
-  { name: 'js', seconds: 85, beside: true, what: 'the package and its command in Node', run: nodeTests },
+  { name: 'js', seconds: 120, beside: true, what: 'the package and its command in Node', run: nodeTests },
   { name: 'page', seconds: 190, beside: true, what: 'the page in Chromium', run: pageTests },
 ];

@@ -1,6 +1,6 @@
 /**
  * Libraries that come along, with their licences, for the package has no dependencies: comlink with its types; commander and
- * tinyglobby for the command, as one file each; and for the page what it needs of three.js.
+ * tinyglobby for the command, as one file each; and for the page what it needs of three.js, and fflate.
  */
 import { copyFile, mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
@@ -55,6 +55,7 @@ async function bundle(name, entry, types, parts = []) {
   }
 }
 
+/** three.js as one file, in a folder made anew, and fflate, which the page loads to write 3MF. */
 async function bundleThree() {
   // Only now: on a fresh clone it has just been installed.
   const { build } = await import('vite');
@@ -71,4 +72,6 @@ async function bundleThree() {
     },
   });
   await copyFile(join(root, 'node_modules/three/LICENSE'), join(wwwVendor, 'LICENSE-three'));
+  await copyFile(join(root, 'node_modules/fflate/esm/browser.js'), join(wwwVendor, 'fflate.js'));
+  await copyFile(join(root, 'node_modules/fflate/LICENSE'), join(wwwVendor, 'LICENSE-fflate'));
 }

@@ -5,7 +5,6 @@ import { FILE_WORDS } from '../messages.js';
 import { showNotice } from './notice.js';
 
 /** @import {Mode} from './mode.js' */
-/** @import {NoticeAction} from './notice.js' */
 
 /**
  * @param {Session} session
@@ -15,7 +14,7 @@ import { showNotice } from './notice.js';
  * @param {{ readonly hasPhoto: boolean, openAll: (files: readonly File[], alone: boolean) => Promise<string | null> }} page opens photos of pages; the answer is a note, or null if none could be opened
  */
 export function filesPanel(session, mode, source, page) {
-  /** @param {string} words @param {NoticeAction} [action] */
+  /** @param {string} words @param {{ label: string, act: () => void }} [action] */
   const note = (words, action) => {
     if (words) showNotice(words, 'note', action);
   };

@@ -3,17 +3,10 @@ import { element } from '../dom.js';
 import { errorMessage } from '../messages.js';
 
 /**
- * Button of a notice.
- * @typedef {object} NoticeAction
- * @property {string} label
- * @property {() => void} act
- */
-
-/**
  * Shows a notice in the place of the last one.
  * @param {string} message
  * @param {'alert' | 'note'} [kind]
- * @param {NoticeAction} [action]
+ * @param {{ label: string, act: () => void }} [action] of its button
  */
 export function showNotice(message, kind = 'alert', action) {
   const notice = element('notice', HTMLElement);

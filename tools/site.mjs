@@ -58,7 +58,11 @@ export async function bundlePage(folder) {
         for (const one of known) found.add(one);
         return known.length ? { code: known.reduce((text, { from, to }) => text.replace(from, to), code), map: null } : null;
       },
-      transformIndexHtml: (html) => html.replace(/\n\s+/g, '\n'),
+      // The package is fetched beside the page's own modules, not after them.
+      transformIndexHtml: (html, { bundle: files = {} }) => ({
+        html: html.replace(/\n\s+/g, '\n'),
+        tags: Object.keys(files).filter((name) => /\/pkg-[^/]*\.js$/.test(name)).map((name) => ({ tag: 'link', attrs: { rel: 'modulepreload', href: `./${name}` } })),
+      }),
     }],
     build: {
       outDir: folder,

@@ -23,14 +23,18 @@ import { heightsPanel } from './panels/heights.js';
 import { meshFitPanel } from './panels/mesh-fit.js';
 import { Session } from './session.js';
 import { MeshFit } from './mesh-fit.js';
+import { loadThree } from './surface/scene.js';
 import { errorMessage } from './messages.js';
 
 async function start() {
   detailsPanel();
+  const { photo, whole } = stateOf(location.hash);
+  const isScene = !isStart(location.hash) && !photo;
+  // What draws the first scene is fetched beside the solver. The scene reports the error of an import that failed.
+  if (isScene) loadThree().catch(() => {});
   const session = new Session(await connect());
   // The doors, and what is behind the other two, need no solver.
-  const { photo, whole } = stateOf(location.hash);
-  const started = isStart(location.hash) || photo || whole ? undefined : session.start();
+  const started = isScene && !whole ? session.start() : undefined;
   const analyses = new Analyses(session.api.DevelopableWorker);
   const meshFit = new MeshFit(session.api);
   const { stage, heights } = heightsPanel(session, analyses);

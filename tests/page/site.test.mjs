@@ -137,3 +137,6 @@ for (const { start, seen, requests, kB } of LOADING_LIMITS) {
     assert.equal(urls.some((url) => url.includes('three')), start !== '', list);
   }, { start, drawn: true });
 }
+    // Nothing waits for what it does not need: the package not for the page's modules, three.js not for the solver.
+    const order = [/\/pkg-/, /\/index-.*js$/, /\/three-/, /solver_bg/].map((name) => urls.findIndex((url) => name.test(url)));
+    assert.deepEqual(order.filter((place) => place >= 0), order.filter((place) => place >= 0).toSorted((a, b) => a - b), list);

@@ -52,6 +52,9 @@ const MIN_ZOOM = 0.5;
 /** Rotation for a press of an arrow key. */
 const KEY_TURN_RADIANS = Math.PI / 24;
 
+/** Loads three.js, which browsers fetch once. */
+export const loadThree = () => import(new URL('../vendor/three.js', import.meta.url).href);
+
 export class SceneView {
   #three;
   #ownSize;
@@ -97,8 +100,7 @@ export class SceneView {
     // The buffer is kept, so that the picture can be saved.
     const context = canvas.getContext('webgl2', { antialias: isFast, preserveDrawingBuffer: true });
     if (!context) throw new Error('this browser has no WebGL 2');
-    const three = await import(new URL('../vendor/three.js', import.meta.url).href);
-    return new SceneView(canvas, context, three, isFast, size);
+    return new SceneView(canvas, context, await loadThree(), isFast, size);
   }
 
   /**

@@ -212,6 +212,7 @@ export const SAVE_WORDS = {
   unwritten: (reason) => `The file was not written: ${reason}.`,
   /** @param {string} looksLike */
   paper: (looksLike) => `Paper size of the PDF${looksLike ? ` (looks like ${looksLike})` : ''}`,
+  searchable: 'Searchable: recognise English text (loads 3.6 MB once; the photo stays here)',
   /** @param {string} size */
   trueSize: (size) => `true size, ${size}`,
   papers: { a4: 'A4', letter: 'Letter', a5: 'A5', a3: 'A3', 'a4-wide': 'A4 landscape', 'letter-wide': 'Letter landscape' },

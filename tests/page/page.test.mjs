@@ -229,6 +229,24 @@ doorTest('photos that are opened together become one PDF, each with its own outl
   assert.deepEqual(await placeOf(page, 'Upper left corner'), placed, 'as it was left');
 });
 
+doorTest('text is recognised in the PDF when it is asked for, by what is loaded only then', async (page) => {
+  /** @type {string[]} */
+  const asked = [];
+  page.on('request', (request) => asked.push(request.url()));
+  await page.getByRole('button', { name: 'Try an example' }).first().click();
+  await flattened(page);
+  const plain = await savedPage(page, 'PDF');
+  assert.deepEqual((await readPdf(plain.bytes)).map(({ texts }) => texts), [[]]);
+  const isText = (/** @type {string} */ url) => /text-(?:client|core|english|worker)/.test(url);
+  assert.equal(asked.filter(isText).length, 0);
+  await page.getByRole('button', { name: 'Save the flat page…' }).click();
+  await page.getByLabel(/^Searchable: .* English .*MB/).check();
+  const { bytes } = await saveAs(page, 'PDF');
+  const [{ texts }] = await readPdf(bytes);
+  assert.match(texts.join(' '), /On laying paper flat .*What bends like paper can be laid flat again without a stretch or a tear/);
+  assert.equal(asked.filter(isText).length, 4);
+});
+
 doorTest('paper is white, or as it was photographed, or the page is black and white', async (page) => {
   await openPhoto(page, 'letter.png', photo);
   const paper = async () => {

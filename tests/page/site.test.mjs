@@ -1,6 +1,6 @@
 /** The page as a folder of static files: under a path of its own, with few requests, without a network, and renewed as a whole. */
 import assert from 'node:assert/strict';
-import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { mkdtemp, readFile, readdir, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { promisify } from 'node:util';
@@ -42,6 +42,13 @@ pageTest('the site works under any path and without a network, and is renewed as
     const guide = await context.newPage();
     await guide.goto(visit.url().replace(/#.*/, ''));
     await guide.reload();
+    // Text recognition is kept once it was used.
+    const model = `${server.url}some/where/assets/${(await readdir(join(folder, 'assets'))).find((name) => name.startsWith('text-english'))}`;
+    const isModelKept = () => guide.evaluate((url) => caches.match(url).then((kept) => kept !== undefined), model);
+    const modelSize = (/** @type {import('playwright-core').Page} */ tab) => tab.evaluate(async (url) => (await (await fetch(url)).arrayBuffer()).byteLength, model);
+    assert.equal(await isModelKept(), false);
+    const size = await modelSize(guide);
+    assert.ok(size > 2e6 && await isModelKept(), String(size));
     await guide.getByRole('link', { name: 'Guide' }).click();
     await guide.getByRole('heading', { name: 'The web page', level: 1 }).waitFor();
     await guide.goto(new URL('meshes.html', guide.url()).href);
@@ -49,6 +56,7 @@ pageTest('the site works under any path and without a network, and is renewed as
     await context.setOffline(true);
     await server.close();
     await visit.reload();
+    assert.equal(await modelSize(visit), size);
     await settled(visit);
     assert.match(await visit.locator('#certificate').innerText(), /^Proven/);
     assert.ok(await visit.evaluate(() => crossOriginIsolated), 'the service worker isolates the page');
@@ -135,8 +143,8 @@ for (const { start, seen, requests, kB } of LOADING_LIMITS) {
     assert.ok(urls.length <= requests && sum <= kB, `${urls.length} requests, ${sum} kB:\n${list}`);
     assert.equal(urls.filter((url) => url.includes('solver_bg')).length, start === '' ? 0 : 1, list);
     assert.equal(urls.some((url) => url.includes('three')), start !== '', list);
-  }, { start, drawn: true });
-}
     // Nothing waits for what it does not need: the package not for the page's modules, three.js not for the solver.
     const order = [/\/pkg-/, /\/index-.*js$/, /\/three-/, /solver_bg/].map((name) => urls.findIndex((url) => name.test(url)));
     assert.deepEqual(order.filter((place) => place >= 0), order.filter((place) => place >= 0).toSorted((a, b) => a - b), list);
+  }, { start, drawn: true });
+}

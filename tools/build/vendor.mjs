@@ -1,6 +1,7 @@
 /**
  * Libraries that come along, with their licences, for the package has no dependencies: comlink with its types; commander and
- * tinyglobby for the command, as one file each; and for the page what it needs of three.js, and fflate.
+ * tinyglobby for the command, as one file each; and for the page what it needs of three.js, fflate, and Tesseract with its
+ * model of English.
  */
 import { copyFile, mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
@@ -20,6 +21,7 @@ export async function buildVendor() {
   await bundle('tinyglobby', 'dist/index.mjs', GLOB_TYPES, ['fdir', 'picomatch']);
   await bundle('commander', 'esm.mjs', await readFile(join(root, 'node_modules/commander/typings/index.d.ts'), 'utf8'));
   await bundleThree();
+  await copyTesseract();
 }
 
 async function copyComlink() {
@@ -74,4 +76,16 @@ async function bundleThree() {
   await copyFile(join(root, 'node_modules/three/LICENSE'), join(wwwVendor, 'LICENSE-three'));
   await copyFile(join(root, 'node_modules/fflate/esm/browser.js'), join(wwwVendor, 'fflate.js'));
   await copyFile(join(root, 'node_modules/fflate/LICENSE'), join(wwwVendor, 'LICENSE-fflate'));
+}
+
+/** Tesseract, which the page loads when text is to be recognised. The model is no `.gz`, which servers may unpack on the way. */
+async function copyTesseract() {
+  const [library, model] = ['node_modules/tesseract-wasm', 'node_modules/@tesseract.js-data/eng/4.0.0_best_int'].map((folder) => join(root, folder));
+  await copyFile(join(library, 'dist/lib.js'), join(wwwVendor, 'text-client.js'));
+  const worker = await readFile(join(library, 'dist/tesseract-worker.js'), 'utf8');
+  // What it says of each picture is for its developers.
+  await writeFile(join(wwwVendor, 'text-worker.js'), worker.replace('console.warn.bind(console)', '(() => {})'));
+  await copyFile(join(library, 'dist/tesseract-core.wasm'), join(wwwVendor, 'text-core.wasm'));
+  await copyFile(join(model, 'eng.traineddata.gz'), join(wwwVendor, 'text-english.bin'));
+  await copyFile(join(library, 'LICENSE.md'), join(wwwVendor, 'LICENSE-tesseract-wasm'));
 }

@@ -66,11 +66,12 @@ export class Book {
    * @param {PageSession} session session of the photo that is shown
    * @param {PackageWorker} worker
    * @param {readonly [number, number] | null} paper size in millimetres; null for true size
+   * @param {boolean} text whether text is recognised where the browser cannot
    * @param {(index: number) => void} onPhoto called before each photo
    * @returns the picture file and the size of each page
    * @throws if no photo can be flattened
    */
-  async flatPages(api, session, worker, paper, onPhoto) {
+  async flatPages(api, session, worker, paper, text, onPhoto) {
     this.saveState(session);
     const { signal } = new AbortController();
     const pages = [];
@@ -83,7 +84,7 @@ export class Book {
         const { quarters, traces } = state ?? { quarters: 0, traces: detectedTraces(photo) };
         const request = { photo, traces, options: session.options, moving: false };
         const flat = await runInWorker(api, signal, async (own) => flattenWholePhoto(own, request, await flattenReducedPhoto(own, request)));
-        pages.push(...await pictureFiles(worker, flat, traces[0].length, quarters, paper, session.options.ink));
+        pages.push(...await pictureFiles(worker, flat, traces[0].length, quarters, paper, { ink: session.options.ink, text }));
       } catch (error) {
         entry.problem = plainMessage(error);
       }

@@ -1,5 +1,7 @@
 /** Paper sizes of flat pages: the most similar size, and the pictures of a PDF's pages, turned by right angles. */
 
+import { linesIn } from './text.js';
+
 /** @import {Pixels} from '../pixels.js' */
 /** @typedef {keyof typeof PAPERS} PaperName */
 
@@ -30,29 +32,19 @@ export function similarPaper(width, height) {
  * @param {number} pages number of pages side by side
  * @param {number} quarters clockwise quarter turns of each page
  * @param {readonly [number, number] | null} paper size in millimetres; null for true size
- * @param {boolean} [ink] whether the flat photo is black and white
+ * @param {{ ink?: boolean, text?: boolean }} options whether the flat photo is black and white; whether its text is recognised where the browser cannot
  */
-export async function pictureFiles(worker, flat, pages, quarters, paper, ink = false) {
+export async function pictureFiles(worker, flat, pages, quarters, paper, { ink = false, text = false }) {
   const columns = Array.from({ length: pages }, (_, i) => [Math.round((i * flat.width) / pages), Math.round(((i + 1) * flat.width) / pages)]);
   const pictures = [];
   for (const [from, to] of columns) {
     const { width, height, data } = turnPicture(columnsOf(flat, from, to), quarters);
-    const words = await textIn(new ImageData(data, width, height));
+    const words = await linesIn(new ImageData(data, width, height), text);
     const picture = await worker.writePhoto({ width, height, data }, { format: ink ? 'png' : 'jpeg' });
     const size = /** @type {[number, number]} */ (paper ? [...paper] : [width / flat.resolution, height / flat.resolution]);
     pictures.push({ picture, size, words });
   }
   return pictures;
-}
-
-/** The lines of text in a picture, where the browser recognises text; none elsewhere. @param {ImageData} image */
-async function textIn(image) {
-  if (!globalThis.TextDetector) return [];
-  const found = await new globalThis.TextDetector().detect(image).catch(() => []);
-  return found.flatMap(({ rawValue: text, boundingBox: { left, top, right, bottom } }) => {
-    const [x, y, end, foot] = [Math.max(0, left), Math.max(0, top), Math.min(image.width, right), Math.min(image.height, bottom)];
-    return x < end && y < foot ? [{ text, box: /** @type {const} */ ([x, y, end - x, foot - y]) }] : [];
-  });
 }
 
 /** The columns `from` to `to` of a picture. @param {Pixels} picture @param {number} from @param {number} to */

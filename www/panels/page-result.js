@@ -41,6 +41,8 @@ export function pageResultPanel(api, session, book, onWritten) {
   let said = [verdict.textContent ?? '', ''];
   let isMoving = false;
   let workingTimer = 0;
+  /** Whether text is recognised in the PDF. */
+  let wantsText = false;
   /** The reduced photo, once it is needed. @type {Picture | null} */
   let before = null;
 
@@ -140,6 +142,7 @@ export function pageResultPanel(api, session, book, onWritten) {
     const paper = make('select', '', ...(measured ? [new Option(SAVE_WORDS.trueSize(sizeOf(found, quarters)), '')] : []),
       ...Object.entries(SAVE_WORDS.papers).map(([name, words]) => new Option(words, name)));
     paper.value = measured ? '' : similar ?? 'a4';
+    const text = Object.assign(make('input', ''), { type: 'checkbox', checked: wantsText });
     const several = book.photos.length > 1;
     const title = several ? stemOf(book.photos[0].file) : wish.photo.name;
     const status = element('save-size', HTMLElement);
@@ -159,16 +162,19 @@ export function pageResultPanel(api, session, book, onWritten) {
       formats: [
         { value: 'pdf', name: 'PDF', ...(several && { stem: `${title}-pages`, note: () => BOOK_WORDS.without(book.problemsInWords()) }), words: several ? BOOK_WORDS.pdf(book.photos.length) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker) => {
           const size = paper.value === '' ? null : PAPERS[/** @type {PaperName} */ (paper.value)];
-          if (several) return worker.writeBook(await book.flatPages(api, session, worker, size, showProgress).finally(onWritten), { title });
+          if (several) return worker.writeBook(await book.flatPages(api, session, worker, size, text.checked, showProgress).finally(onWritten), { title });
           flat ??= await flattenWholePhoto(worker, wish, found);
-          return worker.writeBook(await pictureFiles(worker, flat, pages, quarters, size, wish.options.ink), { title });
+          return worker.writeBook(await pictureFiles(worker, flat, pages, quarters, size, { ink: wish.options.ink, text: text.checked }), { title });
         } },
         { value: 'jpg', name: 'JPEG', words: FORMAT_WORDS.jpg, type: 'image/jpeg', write: writeImage('jpeg') },
         { value: 'png', name: 'PNG', words: FORMAT_WORDS.png, type: 'image/png', write: writeImage('png') },
       ],
-      extra: [make('label', 'field for-pdf', SAVE_WORDS.paper(similar !== null && !measured ? SAVE_WORDS.papers[similar] : ''), paper)],
+      extra: [make('label', 'field for-pdf', SAVE_WORDS.paper(similar !== null && !measured ? SAVE_WORDS.papers[similar] : ''), paper), ...(globalThis.TextDetector ? [] : [make('label', 'format for-pdf', text, SAVE_WORDS.searchable)])],
     });
-    paper.addEventListener('change', () => offer.renew());
+    for (const field of [paper, text]) field.addEventListener('change', () => {
+      wantsText = text.checked;
+      offer.renew();
+    });
   });
   proposal.addEventListener('click', () => {
     const format = element('page-format', HTMLSelectElement);

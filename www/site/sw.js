@@ -1,6 +1,6 @@
 /**
  * The service worker: serves one version of the site without a network. The page and the guides are cached at installation;
- * pictures of guides and pages of the reference are cached when they are opened.
+ * pictures of guides, pages of the reference and text recognition are cached when they are opened.
  */
 /**
  * @typedef {Event & { waitUntil: (done: Promise<unknown>) => void, data: unknown, request: Request, respondWith: (response: Promise<Response>) => void }} WorkerEvent
@@ -42,15 +42,15 @@ async function takeOver() {
   for (const tab of await worker.clients.matchAll({ includeUncontrolled: true })) tab.postMessage('renewed');
 }
 
-/** Whether an address belongs to a guide or to the reference. @param {URL} url */
-const isDocument = ({ href }) => ['guide/', 'reference/'].some((folder) => href.startsWith(new URL(folder, scope).href));
+/** Whether a file is cached when it is opened: of a guide, of the reference or of text recognition. @param {URL} url */
+const isCachedLater = ({ href }) => ['guide/', 'reference/', 'assets/text-'].some((start) => href.startsWith(new URL(start, scope).href));
 
 listen('fetch', (event) => {
   const { request } = event;
   const url = new URL(request.url);
   if (request.method === 'POST' && url.href === new URL('./share', scope).href) return event.respondWith(takeShared(request));
   if (request.method !== 'GET' || url.origin !== location.origin) return;
-  event.respondWith((isDocument(url) ? documentFor(request) : fileFor(request)).then(isolated));
+  event.respondWith((isCachedLater(url) ? laterFileFor(request) : fileFor(request)).then(isolated));
 });
 
 /**
@@ -84,8 +84,8 @@ async function fileFor(request) {
   return (await cachedResponse(wanted)) ?? fetch(request);
 }
 
-/** The response for a document, which is cached. @param {Request} request */
-async function documentFor(request) {
+/** The response for a file that is cached when it is opened. @param {Request} request */
+async function laterFileFor(request) {
   const kept = await cachedResponse(request);
   if (kept) return kept;
   try {

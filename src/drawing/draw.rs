@@ -14,7 +14,7 @@ use super::pages::{Arranged, MAX_PAGES, Pages, Stock, arrange_on_pages, page_cou
 use super::sheet::DrawnSheet;
 use super::tabs::{SeamSides, swapped_tabs};
 use super::totals::{Totals, summary};
-use crate::error::{Error, Result, positive};
+use crate::error::{Error, Result};
 use crate::pattern::{Missing, Sheet};
 
 /// A drawing of sheets beside each other, in millimetres: the lower left corner is `0, 0`, `x` goes to the right
@@ -68,12 +68,11 @@ impl Drawing {
     /// drawing is larger than [`MAX_SIZE`], [`Error::Unsupported`] for a kerf or an allowance at which an outline
     /// would cross itself, or for folds that are not straight from edge to edge where metal is bent.
     pub fn new(sheets: &[Sheet], options: &DrawingOptions) -> Result<Self> {
-        let scale = positive("scale", options.scale)?;
-        let tabs = options.tabs.map(|t| positive("tabs", t)).transpose()?;
+        options.check()?;
+        let (scale, tabs) = (options.scale, options.tabs);
         if sheets.is_empty() {
             return Err(Error::Empty { what: "pattern" });
         }
-        options.check()?;
         if options.printed && sheets.iter().all(|sheet| sheet.faces.textured.is_empty()) {
             return Err(Error::Unsupported {
                 format: "pattern",
@@ -83,11 +82,10 @@ impl Drawing {
             });
         }
         let letters = letters(sheets);
-        let options = DrawingOptions { tabs, ..*options };
         let sheets: &[Sheet] = &(sheets.iter().enumerate())
-            .map(|(number, sheet)| apply_bend_allowance(number, sheet, &options))
+            .map(|(number, sheet)| apply_bend_allowance(number, sheet, options))
             .collect::<Result<Vec<_>>>()?;
-        let lines = matched_lines(sheets, &options);
+        let lines = matched_lines(sheets, options);
         let marks = options.marks.map(|distance| mark_counts(&lines, distance));
         let outlines: Vec<_> = lines.iter().map(|own| &own.outlines[..]).collect();
         let sides = SeamSides::new(&outlines);
@@ -99,7 +97,7 @@ impl Drawing {
         };
         let (mut drawn, unlettered): (Vec<DrawnSheet>, Vec<Vec<&str>>) =
             (sheets.iter().zip(&lines).enumerate())
-                .map(|(number, (sheet, own))| DrawnSheet::new(number, sheet, own, &options, &named))
+                .map(|(number, (sheet, own))| DrawnSheet::new(number, sheet, own, options, &named))
                 .collect::<Result<_>>()?;
         // A letter on one side names nothing.
         let unlettered: BTreeSet<&str> = unlettered.into_iter().flatten().collect();

@@ -1,7 +1,7 @@
 //! Options of a drawing: its scale, tabs, marks, kerf, allowance and smoothing.
 
 use super::bending::Bending;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, positive};
 
 /// Options of a drawing: its scale, its tabs and marks, kerf, allowance, bending and smoothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,8 +66,13 @@ const MIN_MARK_DISTANCE_MM: f64 = 1.0;
 const MAX_OFFSET_MM: f64 = 1000.0;
 
 impl DrawingOptions {
-    /// Checks the ranges of all drawing options except scale and tabs.
-    pub(super) fn check(&self) -> Result<()> {
+    /// Checks the ranges of all drawing options, before a pattern is made that may take minutes.
+    ///
+    /// # Errors
+    /// [`Error::Option`] for an option that is out of its range.
+    pub fn check(&self) -> Result<()> {
+        positive("scale", self.scale)?;
+        self.tabs.map(|t| positive("tabs", t)).transpose()?;
         if let Some(marks) = self
             .marks
             .filter(|d| !(MIN_MARK_DISTANCE_MM..=MAX_SIZE).contains(d))

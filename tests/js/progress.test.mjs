@@ -63,3 +63,14 @@ test('calls that tell nothing refuse it', async () => {
     await assert.rejects(async () => api.patches(surface, /** @type {any} */ ({ onProgress() {} })), { code: 'OPTION', message: /unknown option `onProgress`/ });
   }
 });
+
+test('a drawing whose options are wrong is refused before its pattern is made', () => {
+  for (const options of [{ scale: -1 }, { tabs: -1 }, { marks: 0.5 }, { kerf: -1 }, { allowance: Infinity }, { smoothing: -1 }, { thickness: 1, kFactor: 2 }]) {
+    let calls = 0;
+    const onProgress = () => { calls += 1; };
+    for (const call of [() => direct.pattern(small, { ...options, onProgress }), () => direct.patternMesh(mesh, { ...options, onProgress })]) {
+      assert.throws(call, { code: 'OPTION' });
+    }
+    assert.equal(calls, 0, JSON.stringify(options));
+  }
+});

@@ -80,6 +80,7 @@ impl Wanted {
         {
             drawing = drawing.bending(bending);
         }
+        drawing.check()?;
         Ok(Wanted {
             patches,
             sheets: sheets.unrolling(unrolling),

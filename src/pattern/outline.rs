@@ -134,11 +134,7 @@ impl Layout {
             let closed = outlines.map(|line| line.iter().map(|corner| corner.place).collect());
             closed.collect::<Vec<Vec<Point>>>()
         });
-        let is_inside = |points: &[Vec<Point>], around: &[Vec<Point>]| {
-            let mut probes = points.iter().flatten();
-            probes.any(|place| is_deep_inside(*place, around, distance))
-        };
-        is_inside(&one, &other) || is_inside(&other, &one)
+        reach_into_each_other([&one, &other], distance)
     }
 
     /// Returns whether some of the given patches overlap where the layout puts them in the plane.
@@ -151,6 +147,15 @@ impl Layout {
         }
         !crossings(&places, &edges).is_empty()
     }
+}
+
+/// Returns whether two outlines, closed lines each, reach into each other by more than a distance.
+pub(super) fn reach_into_each_other([one, other]: [&[Vec<Point>]; 2], distance: f64) -> bool {
+    let is_inside = |points: &[Vec<Point>], around: &[Vec<Point>]| {
+        let mut probes = points.iter().flatten();
+        probes.any(|place| is_deep_inside(*place, around, distance))
+    };
+    is_inside(one, other) || is_inside(other, one)
 }
 
 /// Returns whether a point is inside of closed lines and farther from them than a distance.

@@ -16,15 +16,15 @@ use crate::unroll::flat_triangle::Point;
 
 /// Maximum strain of a sheet after a crease was closed, as a share of the limit, unless the sheets on either side
 /// of the crease had more strain before. `benches/patterns.md` has what others give.
-const CREASE_STRAIN_SHARE: f64 = 0.1;
+pub(super) const CREASE_STRAIN_SHARE: f64 = 0.1;
 
 /// Maximum strain of the triangles along a closed seam, as a multiple of the limit for the sheet.
 /// `benches/patterns.md` has what others give.
-const MAX_SEAM_STRAIN_FACTOR: f64 = 2.0;
+pub(super) const MAX_SEAM_STRAIN_FACTOR: f64 = 2.0;
 
 /// Minimum number of nodes of each half of a seam that is divided because it cannot be closed as a whole.
 /// `benches/patterns.md` has what others give.
-const MIN_HALVED_SEAM_NODES: usize = 12;
+pub(super) const MIN_HALVED_SEAM_NODES: usize = 12;
 
 /// Maximum number of solver iterations of all trials to close cuts, summed over the vertices of the sheet in each
 /// trial, per vertex of the pattern.
@@ -33,15 +33,15 @@ const STEP_BUDGET_PER_VERTEX: usize = 800;
 /// Maximum squared gap of a cut, as a multiple of the area times the squared strain that its sheet may have, at which it
 /// is tried to close the cut: where two sides are pulled together by a distance, a strip about as wide is strained. Of the
 /// cuts closed on the scans of `benches/patterns.md` the largest ratio was 0.96.
-const MAX_CLOSED_GAP_RATIO: f64 = 2.0;
+pub(super) const MAX_CLOSED_GAP_RATIO: f64 = 2.0;
 
 /// Maximum depth, in lattice spacings, by which two sheets may reach into each other where the cut between them is tried to
 /// be closed: laying them flat together moves their outlines by less. Of the cuts closed on the scans of
 /// `benches/patterns.md` the largest depth was 1.44.
-const MAX_CLOSED_OVERLAP_SPACINGS: f64 = 2.0;
+pub(super) const MAX_CLOSED_OVERLAP_SPACINGS: f64 = 2.0;
 
 /// Stopping criteria for the first steps of a trial, which show whether it is worth more.
-const TRIAL_RELAXATION: StoppingCriteria = StoppingCriteria {
+pub(super) const TRIAL_RELAXATION: StoppingCriteria = StoppingCriteria {
     relative_tolerance: 0.01,
     max_steps: 6,
     ..SHEET_RELAXATION
@@ -49,7 +49,7 @@ const TRIAL_RELAXATION: StoppingCriteria = StoppingCriteria {
 
 /// Factor of the limits for strains and gaps after the first steps of a trial, above which it is abandoned. Later
 /// steps hardly lower the strain of a sheet; with 1.02 the scan `range` of `benches/patterns.md` has one sheet more.
-const TRIAL_LIMIT_FACTOR: f64 = 1.05;
+pub(super) const TRIAL_LIMIT_FACTOR: f64 = 1.05;
 
 /// Closes cuts again where the sheets stay valid, the longest first; a cut that cannot be closed as a whole is
 /// halved, and each half is tried. Only cuts of the wanted parts are tried.

@@ -623,3 +623,51 @@ fn what_was_found_of_a_noisy_bottle_lies_flat_within_the_limit() {
     let whole: f64 = pattern.sheets.iter().map(enclosed).sum();
     assert!((whole / (areas[0] + areas[1]) - 1.0).abs() < 0.02);
 }
+
+#[test]
+fn a_crease_that_fits_along_a_part_of_its_length_is_a_fold_there() {
+    // A plate, and a wall upright on its edge, which is straight for a length of 2 and then an arc of radius 1. The wall's
+    // edge unrolls to a straight line.
+    let edge = |s: f64| match s <= 2.0 {
+        true => [0.0, s],
+        false => [(s - 2.0).cos() - 1.0, 2.0 + (s - 2.0).sin()],
+    };
+    let plate = |u: f64, v: f64| {
+        let [x, y] = edge(3.2 * v);
+        [x - 1.2 * (1.0 - u), y, 0.0]
+    };
+    let wall = |u: f64, v: f64| {
+        let [x, y] = edge(3.2 * v);
+        [x, y, u]
+    };
+    let mesh = surface(&[&plate, &wall], 13, 49);
+    let (patches, pattern) = pattern_of(&mesh);
+    assert_eq!(patches.patches().len(), 2);
+    let [sheet] = &pattern.sheets[..] else {
+        panic!("{} sheets", pattern.sheets.len());
+    };
+    let long = |points: &[[f64; 2]]| -> f64 {
+        let pairs = points.windows(2);
+        pairs
+            .map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]))
+            .sum()
+    };
+    let [fold] = &sheet.folds[..] else {
+        panic!("{} folds", sheet.folds.len());
+    };
+    let cuts = sheet
+        .outlines
+        .iter()
+        .flatten()
+        .filter(|run| run.seam.is_some());
+    let cuts: Vec<f64> = cuts.map(|run| long(&run.points)).collect();
+    // Where the arc begins the two sides part slowly, by the square of the length; over a fold of 2.5 they are a quarter of an edge
+    // apart in root mean square.
+    let folded = long(&fold.points);
+    assert!((1.9..2.5).contains(&folded), "{folded}");
+    assert_eq!(cuts.len(), 2, "{cuts:?}");
+    // All of the strain is beside the fold's end, and the sides differ by it.
+    for cut in cuts {
+        assert!((folded + cut - 3.2).abs() < 0.03, "{folded} {cut}");
+    }
+}

@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::math::index::NO_INDEX;
 use crate::math::symmetric_eigen::symmetric_eigen3;
 use crate::math::union_find::UnionFind;
-use crate::scene::half_edges::twin_half_edges;
+use crate::scene::half_edges::{half_edge_ends, twin_half_edges};
 use rustc_hash::FxHashMap;
 
 pub(super) type Place = Vector3<f64>;
@@ -195,6 +195,21 @@ impl Body {
             labels[*t as usize] = u32::from(sum > 0.0);
         }
         self.part(&members, &labels)
+    }
+
+    /// Length of the border of some triangles.
+    pub(super) fn perimeter(&self, members: &[u32]) -> f64 {
+        let own: Vec<[u32; 3]> = members
+            .iter()
+            .map(|t| self.triangles[*t as usize])
+            .collect();
+        let twins = twin_half_edges(&own);
+        let border = (0u32..).zip(&twins).filter(|(_, twin)| **twin == NO_INDEX);
+        let lengths = border.map(|(side, _)| {
+            let [a, b] = half_edge_ends(&own, side).map(|v| self.places[v as usize]);
+            (b - a).norm()
+        });
+        lengths.sum()
     }
 
     /// Middle of a triangle.

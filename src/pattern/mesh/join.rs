@@ -5,6 +5,7 @@ use super::lay::{FlatPart, Lying};
 use super::seams::Seams;
 use crate::error::Result;
 use crate::pattern::motion::Motion;
+use crate::pattern::outline::reach_into_each_other;
 use crate::pattern::seam_graph::NEGLIGIBLE_GAP_LENGTHS;
 use crate::progress;
 use crate::scene::half_edges::next_half_edge;
@@ -52,16 +53,21 @@ pub(super) struct Joined {
     pub gap: f64,
 }
 
-/// Joins the parts of a mesh to flat sheets along their seams, the longest seam first.
+/// Joins the parts of a mesh to flat sheets along their seams, the longest seam first, and then closes cuts again. Returns the
+/// seams, some of them divided, and the sheets.
 pub(super) fn join_parts(
     body: &Body,
-    seams: &Seams,
+    seams: Seams,
     parts: Vec<FlatPart>,
     limits: Limits,
-) -> Result<Vec<Joined>> {
-    let mut order: Vec<usize> = (0..seams.all.len()).collect();
-    order.sort_by(|a, b| seams.all[*b].length.total_cmp(&seams.all[*a].length));
+) -> Result<(Seams, Vec<Joined>)> {
     let mut sheets = Sheets::new(body, seams, parts, limits);
+    sheets.divide_by_fit();
+    let mut order: Vec<usize> = (0..sheets.seams.all.len()).collect();
+    order.sort_by(|a, b| {
+        let [a, b] = [a, b].map(|seam| sheets.seams.all[*seam].length);
+        b.total_cmp(&a)
+    });
     let steps = (order.len() + sheets.all.len()) as f64;
     for (done, seam) in (1u32..).zip(&order) {
         if !sheets.whole[*seam] {
@@ -72,30 +78,39 @@ pub(super) fn join_parts(
         let done = order.len() + number + 1;
         progress::part(done as f64 / steps, || sheets.settle(number))?;
     }
-    Ok(sheets.all.into_iter().flatten().collect())
+    sheets.close_cuts()?;
+    let numbers = sheets.seams.put_together(&sheets.whole);
+    let mut joined: Vec<Joined> = sheets.all.into_iter().flatten().collect();
+    for sheet in &mut joined {
+        let whole = sheet.whole.iter().map(|seam| numbers[*seam]);
+        sheet.whole = whole.collect();
+        sheet.whole.sort_unstable();
+        sheet.whole.dedup();
+    }
+    Ok((sheets.seams, joined))
 }
 
 /// The sheets found so far, while parts of a mesh are joined to sheets.
-struct Sheets<'a> {
-    body: &'a Body,
-    seams: &'a Seams,
-    limits: Limits,
-    all: Vec<Option<Joined>>,
+pub(super) struct Sheets<'a> {
+    pub body: &'a Body,
+    pub seams: Seams,
+    pub limits: Limits,
+    pub all: Vec<Option<Joined>>,
     /// Whether the solver has laid each sheet flat until convergence.
     settled: Vec<bool>,
     /// Number of the sheet that each part of the mesh is on.
-    of: Vec<usize>,
+    pub of: Vec<usize>,
     /// Position on its sheet of each corner of the mesh's triangles.
-    at: Vec<Point>,
+    pub at: Vec<Point>,
     /// For each seam whether its two sides are joined on a sheet.
-    whole: Vec<bool>,
+    pub whole: Vec<bool>,
     /// For each seam whether sheets were invalid that were joined along this seam together with another one. It is then
     /// tried only by itself.
-    doubtful: Vec<bool>,
+    pub doubtful: Vec<bool>,
 }
 
 impl<'a> Sheets<'a> {
-    fn new(body: &'a Body, seams: &'a Seams, parts: Vec<FlatPart>, limits: Limits) -> Self {
+    fn new(body: &'a Body, seams: Seams, parts: Vec<FlatPart>, limits: Limits) -> Self {
         let alone = |(part, laid): (u32, FlatPart)| Joined {
             parts: vec![part],
             whole: Vec::new(),
@@ -119,7 +134,7 @@ impl<'a> Sheets<'a> {
         sheets
     }
 
-    fn put(&mut self, number: usize, sheet: Joined) {
+    pub(super) fn put(&mut self, number: usize, sheet: Joined) {
         for (t, corners) in sheet.laid.members.iter().zip(&sheet.laid.triangles) {
             for (k, corner) in corners.iter().enumerate() {
                 self.at[3 * *t as usize + k] = sheet.laid.places[*corner as usize];
@@ -170,11 +185,11 @@ impl<'a> Sheets<'a> {
             .filter(|other| **other != seam && !self.doubtful[**other] && both.has(**other));
         let also = others.filter_map(|other| Some((*other, both.fits(*other)?)));
         let all: Vec<(usize, f64)> = std::iter::once((seam, apart)).chain(also).collect();
-        let found = both.laid(&all)?;
+        let found = both.laid(&all, self.limits, Trial::Join)?;
         if found.is_some() || all.len() == 1 {
             return Ok(found);
         }
-        let found = both.laid(&all[..1]);
+        let found = both.laid(&all[..1], self.limits, Trial::Join);
         for (other, _) in &all[1..] {
             self.doubtful[*other] = true;
         }
@@ -201,8 +216,17 @@ impl<'a> Sheets<'a> {
     }
 }
 
+/// How sheets are tried to be joined along seams.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Trial {
+    /// Their sides fit, so that they lie beside each other at once.
+    Join,
+    /// Their sides are pulled together.
+    Close,
+}
+
 /// One sheet that is closed along a seam, or two sheets of which the second is moved to the first along a seam.
-struct SheetPair<'a> {
+pub(super) struct SheetPair<'a> {
     sheets: &'a Sheets<'a>,
     numbers: [usize; 2],
     /// Rigid motion in the plane that moves the second sheet to the first; `None` if there is only one sheet.
@@ -210,7 +234,7 @@ struct SheetPair<'a> {
 }
 
 impl<'a> SheetPair<'a> {
-    fn new(sheets: &'a Sheets<'a>, seam: usize, numbers: [usize; 2]) -> Self {
+    pub(super) fn new(sheets: &'a Sheets<'a>, seam: usize, numbers: [usize; 2]) -> Self {
         let mut both = SheetPair {
             sheets,
             numbers,
@@ -223,7 +247,7 @@ impl<'a> SheetPair<'a> {
         both
     }
 
-    fn all(&self) -> impl Iterator<Item = &'a Joined> {
+    pub(super) fn all(&self) -> impl Iterator<Item = &'a Joined> {
         let two = self.motion.map_or(1, |_| 2);
         let numbers = self.numbers.into_iter().take(two);
         numbers.filter_map(|number| self.sheets.all[number].as_ref())
@@ -231,7 +255,7 @@ impl<'a> SheetPair<'a> {
 
     /// Returns whether a seam may be joined here: it is not joined yet, and the parts on both of its sides lie on these
     /// sheets.
-    fn has(&self, seam: usize) -> bool {
+    pub(super) fn has(&self, seam: usize) -> bool {
         let mut parts = self.sheets.seams.all[seam].parts.iter();
         let is_here = |part: &u32| self.numbers.contains(&self.sheets.of[*part as usize]);
         !self.sheets.whole[seam] && parts.all(is_here)
@@ -244,6 +268,23 @@ impl<'a> SheetPair<'a> {
         match &self.motion {
             Some(motion) if self.sheets.of[part as usize] == self.numbers[1] => motion.apply(place),
             _ => place,
+        }
+    }
+
+    /// Returns whether two sheets reach into each other by more than a distance.
+    pub(super) fn reach_into_each_other(&self, distance: f64) -> bool {
+        let outlines: Vec<Vec<Vec<Point>>> = (self
+            .all()
+            .zip([Motion::IDENTITY, self.motion.unwrap_or(Motion::IDENTITY)]))
+        .map(|(sheet, motion)| {
+            let lines = sheet.laid.lines().into_iter();
+            let moved = lines.map(|line| line.into_iter().map(|p| motion.apply(p)).collect());
+            moved.collect()
+        })
+        .collect();
+        match &outlines[..] {
+            [one, other] => reach_into_each_other([one, other], distance),
+            _ => false,
         }
     }
 
@@ -262,8 +303,16 @@ impl<'a> SheetPair<'a> {
         ]
     }
 
-    /// Computes the seam gap, the root mean square distance between the two sides of a seam; `None` if the gap is too
-    /// large for the seam to be closed.
+    /// Computes the seam gap: the root mean square distance between the two sides of a seam.
+    pub(super) fn gap(&self, seam: usize) -> f64 {
+        let [one, other] = self.nodes(seam);
+        let squares: f64 = (one.iter().zip(&other))
+            .map(|(p, q)| (p - q).norm_sqr())
+            .sum();
+        (squares / one.len() as f64).sqrt()
+    }
+
+    /// Returns the seam gap; `None` if it is too large for the two sides to be joined.
     fn fits(&self, seam: usize) -> Option<f64> {
         let Sheets {
             seams,
@@ -271,24 +320,20 @@ impl<'a> SheetPair<'a> {
             body,
             ..
         } = self.sheets;
-        let [one, other] = self.nodes(seam);
-        let squares: f64 = (one.iter().zip(&other))
-            .map(|(p, q)| (p - q).norm_sqr())
-            .sum();
-        let apart = (squares / one.len() as f64).sqrt();
+        let apart = self.gap(seam);
         let most = (limits.gap * seams.all[seam].length).max(NEGLIGIBLE_GAP_LENGTHS * body.spacing);
         (apart <= most).then_some(apart)
     }
 
     /// Lays the sheets flat as one sheet, closed along given seams, each with its seam gap; `None` if the result is not
     /// a valid sheet.
-    fn laid(&self, along: &[(usize, f64)]) -> Result<Option<Joined>> {
-        let Sheets {
-            seams,
-            limits,
-            body,
-            ..
-        } = self.sheets;
+    pub(super) fn laid(
+        &self,
+        along: &[(usize, f64)],
+        limits: Limits,
+        how: Trial,
+    ) -> Result<Option<Joined>> {
+        let Sheets { seams, body, .. } = self.sheets;
         let more = along.iter().map(|(seam, _)| *seam);
         let mut joined = self.sheets.whole.clone();
         more.clone().for_each(|seam| joined[seam] = true);
@@ -298,13 +343,15 @@ impl<'a> SheetPair<'a> {
         let start = Lying::At(&|corner| self.place(corner));
         let twins = seams.twins(&members, |seam| joined[seam]);
         let rough = FlatPart::new(body, members, twins, start)?;
-        if rough.overlaps() {
-            return Ok(None);
-        }
-        let laid = match rough.strain <= TRIAL_STRAIN_SHARE * limits.strain {
-            true => rough,
-            false => {
-                let laid = rough.relaxed(body, limits.trial())?;
+        let laid = match how {
+            Trial::Join if rough.overlaps() => return Ok(None),
+            Trial::Join if rough.strain <= TRIAL_STRAIN_SHARE * limits.strain => rough,
+            Trial::Close if limits.allow(&rough) => rough,
+            _ => {
+                let laid = match how {
+                    Trial::Join => rough.relaxed(body, limits.trial())?,
+                    Trial::Close => rough.closed(body, limits.strain)?,
+                };
                 if !limits.allow(&laid) {
                     return Ok(None);
                 }

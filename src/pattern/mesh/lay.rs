@@ -2,10 +2,14 @@
 
 use std::collections::VecDeque;
 
+use rustc_hash::FxHashSet;
+
 use super::body::Body;
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::math::union_find::UnionFind;
+use crate::pattern::fault::SHEET_RELAXATION;
+use crate::pattern::sew::{TRIAL_LIMIT_FACTOR, TRIAL_RELAXATION};
 use crate::scene::half_edges::{half_edge_ends, next_half_edge, twin_half_edges};
 use crate::unroll::arap_mesh::{ArapMesh, StoppingCriteria};
 use crate::unroll::flat_triangle::{FlatTriangle, Point};
@@ -112,6 +116,24 @@ impl FlatPart {
         Ok(self)
     }
 
+    /// Moves the vertices to the positions of least strain, as long as a limit seems within reach; most trials fail, and a few
+    /// steps show that.
+    pub(super) fn closed(mut self, body: &Body, limit: f64) -> Result<FlatPart> {
+        let own = self.members.iter().map(|t| body.triangles[*t as usize]);
+        let pieces: Vec<FlatTriangle> = own.map(|t| piece(body, t)).collect();
+        let whole = pieces.iter().copied().zip(self.triangles.iter().copied());
+        let whole = whole.filter(|(piece, _)| piece.exists()).collect();
+        let mut joint = ArapMesh::new(&self.places, whole, Vec::new())?;
+        for until in [TRIAL_RELAXATION, SHEET_RELAXATION] {
+            joint.minimise_in_plane(&mut self.places, until)?;
+            self.measure(&pieces);
+            if self.strain > TRIAL_LIMIT_FACTOR * limit || self.strain <= limit || self.overlaps() {
+                break;
+            }
+        }
+        Ok(self)
+    }
+
     fn relax(&mut self, pieces: &[FlatTriangle], until: StoppingCriteria) -> Result<()> {
         let whole = pieces.iter().copied().zip(self.triangles.iter().copied());
         let whole = whole.filter(|(piece, _)| piece.exists()).collect();
@@ -176,6 +198,33 @@ impl FlatPart {
         }
     }
 
+    /// Integral of the squared strain over the flat part.
+    pub(super) fn energy(&self) -> f64 {
+        self.area * self.strain.powi(2)
+    }
+
+    /// Root mean square strain of some triangles.
+    pub(super) fn strain_of(&self, body: &Body, wanted: &[u32]) -> f64 {
+        let wanted: FxHashSet<u32> = wanted.iter().copied().collect();
+        let (mut squares, mut area) = (0.0, 0.0);
+        for (t, corners) in self.members.iter().zip(&self.triangles) {
+            if !wanted.contains(t) {
+                continue;
+            }
+            let piece = piece(body, body.triangles[*t as usize]);
+            if piece.exists() {
+                let [long, short] = piece.singular_values(corners.map(|v| self.places[v as usize]));
+                squares += piece.area() * ((long - 1.0).powi(2) + (short - 1.0).powi(2));
+                area += piece.area();
+            }
+        }
+        if area > 0.0 {
+            (0.5 * squares / area).sqrt()
+        } else {
+            0.0
+        }
+    }
+
     fn measure(&mut self, pieces: &[FlatTriangle]) {
         let (mut squares, mut worst) = (0.0, 0.0);
         for (t, piece) in pieces.iter().enumerate().filter(|(_, p)| p.exists()) {
@@ -207,6 +256,29 @@ impl FlatPart {
             .map(|s| half_edge_ends(&self.triangles, s))
             .collect();
         !crossings(&self.places, &border).is_empty() || self.covers_itself(&border)
+    }
+
+    /// The closed lines around the flat part.
+    pub(super) fn lines(&self) -> Vec<Vec<Point>> {
+        let mut is_done = vec![false; self.twins.len()];
+        let mut lines = Vec::new();
+        for first in self.border() {
+            let mut line = Vec::new();
+            let mut side = first;
+            while !std::mem::replace(&mut is_done[side as usize], true) {
+                line.push(
+                    self.places[self.triangles[side as usize / 3][side as usize % 3] as usize],
+                );
+                side = next_half_edge(side);
+                while self.twins[side as usize] != NO_INDEX {
+                    side = next_half_edge(self.twins[side as usize]);
+                }
+            }
+            if line.len() > 2 {
+                lines.push(line);
+            }
+        }
+        lines
     }
 
     /// Finds the few triangles of the flat part whose removal would leave a border that does not cross itself; empty if
@@ -299,13 +371,18 @@ impl FlatPart {
                 .map(|v| self.places[*v as usize])
                 .sum::<Point>()
                 / 3.0;
-            let turns: f64 = (border.iter())
+            let turns: i32 = (border.iter())
                 .map(|ends| {
                     let [a, b] = ends.map(|v| self.places[v as usize] - middle);
-                    (b * a.conj()).arg()
+                    let is_left = (a.conj() * b).im > 0.0;
+                    match (a.im <= 0.0, b.im <= 0.0) {
+                        (true, false) => i32::from(is_left),
+                        (false, true) => -i32::from(!is_left),
+                        _ => 0,
+                    }
                 })
                 .sum();
-            turns > 1.5 * std::f64::consts::TAU
+            turns > 1
         })
     }
 }

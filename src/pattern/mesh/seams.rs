@@ -20,6 +20,8 @@ pub(super) struct Seam {
     pub smooth: bool,
     /// Mean fold angle along the seam, in radians; positive for a ridge.
     pub angle: f64,
+    /// Number of the line that the seam is a part of, and of the line's edge at which it begins.
+    line: [usize; 2],
 }
 
 /// The seams between the parts of a mesh, and the number of the seam that each half-edge is on.
@@ -70,11 +72,58 @@ impl Seams {
                         sides: sides[run.clone()].to_vec(),
                         length: folds[run.clone()].iter().map(|(long, _)| long).sum(),
                         angle: mean(&folds[run]),
+                        line: [seams.all.len(), 0],
                     });
                 }
             }
         }
         seams
+    }
+
+    /// Divides a seam in two before one of its edges. Returns the number of the second one.
+    pub(super) fn divide(&mut self, body: &Body, seam: usize, at: usize) -> usize {
+        let first = &mut self.all[seam];
+        let vertices = first.vertices.split_off(at);
+        first.vertices.push(vertices[0]);
+        let rest = Seam {
+            line: [first.line[0], first.line[1] + at],
+            sides: first.sides.split_off(at),
+            length: length(body, &vertices),
+            vertices,
+            ..*first
+        };
+        first.length = length(body, &first.vertices);
+        self.add(rest);
+        self.all.len() - 1
+    }
+
+    /// Puts together what was divided of a seam where both parts are joined, or neither. Returns the new number of each seam.
+    pub(super) fn put_together(&mut self, is_whole: &[bool]) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.all.len()).collect();
+        order.sort_by_key(|seam| self.all[*seam].line);
+        let mut old: Vec<Option<Seam>> = self.all.drain(..).map(Some).collect();
+        let mut numbers = vec![0; old.len()];
+        let mut last = None;
+        for seam in order {
+            let Some(next) = old[seam].take() else {
+                continue;
+            };
+            let key = (next.line[0], is_whole[seam]);
+            match self.all.last_mut() {
+                Some(seam) if last == Some(key) => {
+                    seam.vertices.extend(&next.vertices[1..]);
+                    seam.sides.extend(next.sides);
+                    seam.length += next.length;
+                }
+                _ => self.all.push(next),
+            }
+            last = Some(key);
+            numbers[seam] = self.all.len() - 1;
+        }
+        for seam in self.of.iter_mut().filter(|seam| **seam != NO_INDEX) {
+            *seam = numbers[*seam as usize] as u32;
+        }
+        numbers
     }
 
     fn add(&mut self, seam: Seam) {
@@ -110,6 +159,14 @@ impl Seams {
         let seam = self.of[side as usize];
         (seam != NO_INDEX).then_some(seam as usize)
     }
+}
+
+/// Length of a line along edges of a mesh.
+fn length(body: &Body, vertices: &[u32]) -> f64 {
+    let pairs = vertices.windows(2);
+    pairs
+        .map(|p| (body.places[p[1] as usize] - body.places[p[0] as usize]).norm())
+        .sum()
 }
 
 /// Returns whether the triangles on both sides of an edge belong to one patch.
@@ -165,4 +222,36 @@ fn fold(body: &Body, [one, other]: [u32; 2]) -> (f64, f64) {
     let cross = m.cross(&n);
     let angle = cross.norm().atan2(m.dot(&n));
     (along.norm(), angle.copysign(cross.dot(&along)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pattern::mesh::body::Place;
+
+    #[test]
+    fn what_was_divided_is_put_together_where_it_is_alike() {
+        // Two strips of squares beside each other.
+        let places = (0..3).flat_map(|x| (0..9).map(move |y| Place::new(x.into(), y.into(), 0.0)));
+        let cells = (0..2).flat_map(|x| (0..8).map(move |y| 9 * x + y));
+        let triangles: Vec<[u32; 3]> = cells
+            .flat_map(|a| [[a, a + 9, a + 10], [a, a + 10, a + 1]])
+            .collect();
+        let strips = (0..triangles.len() as u32).map(|t| t / 16).collect();
+        let body = Body::new(places.collect(), triangles, strips).unwrap();
+        let mut seams = Seams::new(&body, 0.3);
+        let before = seams.all[0].sides.clone();
+        assert_eq!((seams.all.len(), before.len()), (1, 8));
+        assert_eq!(seams.divide(&body, 0, 5), 1);
+        assert_eq!(seams.divide(&body, 0, 2), 2);
+        let lengths: Vec<f64> = seams.all.iter().map(|seam| seam.length).collect();
+        assert_eq!(lengths, [2.0, 3.0, 3.0]);
+        // From one end the pieces are the first, the last and the second.
+        assert_eq!(seams.put_together(&[false, true, true]), [0, 1, 1]);
+        assert_eq!(seams.all[1].length, 6.0);
+        assert_eq!(seams.of(before[7][0]), Some(1));
+        assert_eq!(seams.put_together(&[true, true]), [0, 0]);
+        assert_eq!((seams.all.len(), &seams.all[0].sides), (1, &before));
+        assert_eq!(seams.all[0].vertices.len(), 9);
+    }
 }

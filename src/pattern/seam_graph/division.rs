@@ -141,7 +141,7 @@ impl SeamGraph {
 
 /// Computes where to divide a seam, as node numbers along it, first and last included: around the longest part whose
 /// sides fit.
-fn divided(sides: &[Vec<Point>; 2], gap: f64, fine: f64) -> Vec<usize> {
+pub(in crate::pattern) fn divided(sides: &[Vec<Point>; 2], gap: f64, fine: f64) -> Vec<usize> {
     let last = sides[0].len() - 1;
     let whole = vec![0, last];
     // Prefix sums of lengths and moments, so that the gap of any part takes constant time.

@@ -9,6 +9,7 @@ mod division;
 mod places;
 
 pub(super) use border::HEADING_NODES;
+pub(super) use division::divided;
 
 use super::flat_patch::{FlatPatch, MIN_TEAR_GAP_SPACINGS};
 use super::labels::Labels;

@@ -9,13 +9,14 @@ use crate::scene::mesh::Mesh;
 use crate::scene::polyhedron::{Place, Polyhedron};
 
 /// Maximum difference of a skin's depth from the thickness, as a share of it: the depth between the chords of a bend is less
-/// than between its arcs.
+/// than between its arcs. `benches/patterns.md` has what others give.
 const MAX_DEPTH_DIFFERENCE: f64 = 0.15;
 
-/// Maximum cosine of the angle between the normals of a skin and of what lies below it.
+/// Maximum cosine of the angle between the normals of a skin and of what lies below it. `benches/patterns.md` has what others give.
 const MAX_OPPOSITE_COSINE: f64 = -0.9;
 
-/// Maximum thickness of a sheet, as a share of the side of a square with the area of a skin.
+/// Maximum thickness of a sheet, as a share of the side of a square with the area of a skin. `benches/patterns.md` has what others
+/// give.
 const MAX_THICKNESS_SHARE: f64 = 0.1;
 
 /// Maximum product of the numbers of facets and triangles: some seconds of search in wasm.

@@ -16,19 +16,23 @@ use crate::scene::half_edges::{half_edge_ends, next_half_edge, twin_half_edges};
 use crate::scene::mesh::Mesh;
 use crate::scene::polyhedron::{KnownFaces, Place, Polyhedron};
 
-/// Length, in standard deviations of the noise, up to which the ends of an edge are one corner.
+/// Length, in standard deviations of the noise, up to which the ends of an edge are one corner. `benches/patterns.md` has what
+/// others give.
 const MIN_EDGE_SIGMAS: f64 = 10.0;
 
 /// Cosine of the angle opposite to the border, 150°, from which a triangle is a bridge between vertices of the border.
+/// `benches/patterns.md` has what others give.
 const MAX_BRIDGE_COSINE: f64 = -0.866;
 
 /// Maximum difference of the area of each face from that of the mesh on its plane, as a share, and of all from all.
+/// `benches/patterns.md` has what others give.
 const MAX_AREA_DIFFERENCE: f64 = 0.05;
 
 /// Maximum share of the area that bridges of the border have: more are faces of their own, such as the risers of steps.
+/// `benches/patterns.md` has what others give.
 const MAX_BRIDGE_SHARE: f64 = 0.01;
 
-/// Minimum number of edges of a border whose ends do not count for its straight parts.
+/// Minimum number of edges of a border whose ends do not count for its straight parts. `benches/patterns.md` has what others give.
 const MIN_BORDER_EDGES: usize = 4;
 
 /// Recognises a polyhedron with noise, and finds its faces: planes that explain all vertices as nearly as neighbouring vertices

@@ -11,44 +11,51 @@ use crate::math::symmetric_eigen::symmetric_eigen3;
 use crate::scene::polyhedron::{Place, Polyhedron};
 
 /// Number of neighbouring vertices from which the noise is measured and a region grows, and minimum number of a region.
+/// `benches/patterns.md` has what others give.
 const SEED_VERTICES: usize = 16;
 
-/// Distance from a plane, in standard deviations of the noise, within which a vertex may lie in it.
+/// Distance from a plane, in standard deviations of the noise, within which a vertex may lie in it. `benches/patterns.md` has what
+/// others give.
 pub(super) const MAX_DEVIATION_SIGMAS: f64 = 3.0;
 
-/// Share of the seeds that are flatter than the noise is measured at: the others may lie across creases.
+/// Share of the seeds that are flatter than the noise is measured at: the others may lie across creases. `benches/patterns.md` has
+/// what others give.
 const FLAT_SEED_QUANTILE: f64 = 0.25;
 
 /// That quantile of the variance of [`SEED_VERTICES`] about their plane, as a share of its mean (chi-squared, 13 degrees).
 const FLAT_SEED_VARIANCE_SHARE: f64 = 0.715;
 
 /// Levels of noise that are tried, in multiples of what neighbouring vertices show: noise may be alike at neighbours.
+/// `benches/patterns.md` has what others give.
 const NOISE_LEVELS: [f64; 2] = [1.0, 2.0];
 
-/// Maximum number of rounds in which a region grows, and of those in which vertices choose among regions.
+/// Maximum number of rounds in which a region grows, and of those in which vertices choose among regions. `benches/patterns.md` has
+/// what others give.
 const MAX_ROUNDS: usize = 12;
 
-/// Maximum ratio of the deviations of a region from a plane for two regions and from its own.
+/// Maximum ratio of the deviations of a region from a plane for two regions and from its own. `benches/patterns.md` has what others
+/// give.
 const MAX_MERGED_DEVIATION_RATIO: f64 = 1.2;
 
 /// Maximum share of the squared distances from its plane that a quadratic explains in a face: more is the shape of a bent surface.
+/// `benches/patterns.md` has what others give.
 const MAX_BENT_SHARE: f64 = 0.2;
 
-/// Maximum correlation of the distances of neighbouring vertices from their plane.
+/// Maximum correlation of the distances of neighbouring vertices from their plane. `benches/patterns.md` has what others give.
 const MAX_NEIGHBOUR_CORRELATION: f64 = 0.5;
 
 /// Sum of squared distances, in variances, that a quadratic explains by chance in noise: four standard deviations above the mean
-/// of a chi-squared of three degrees.
+/// of a chi-squared of three degrees. `benches/patterns.md` has what others give.
 const MAX_CHANCE_VARIANCES: f64 = 13.0;
 
-/// Minimum squared sine of the angle between planes that decide where a corner is.
+/// Minimum squared sine of the angle between planes that decide where a corner is. `benches/patterns.md` has what others give.
 const MIN_SQUARED_SINE: f64 = 1e-4;
 
 /// Minimum extent of a face across its length (root mean square distance from its middle) in standard deviations of the noise: the
-/// plane of a single row of vertices may have any tilt.
+/// plane of a single row of vertices may have any tilt. `benches/patterns.md` has what others give.
 const MIN_FACE_SIGMAS: f64 = 15.0;
 
-/// Maximum share of the vertices that lie in no plane.
+/// Maximum share of the vertices that lie in no plane. `benches/patterns.md` has what others give.
 const MAX_OUTLIER_SHARE: f64 = 0.02;
 
 #[derive(Debug, Clone, Copy)]

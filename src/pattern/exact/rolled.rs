@@ -16,19 +16,19 @@ use crate::scene::half_edges::half_edge_ends;
 use crate::scene::mesh::Mesh;
 use crate::scene::polyhedron::{KnownFaces, Place, Polyhedron};
 
-/// Number of neighbouring facets from which a cylinder is found.
+/// Number of neighbouring facets from which a cylinder is found. `benches/patterns.md` has what others give.
 const SEED_FACETS: usize = 8;
 
-/// Number of steps in which a cylinder is found by Gauss and Newton.
+/// Number of steps in which a cylinder is found by Gauss and Newton. `benches/patterns.md` has what others give.
 const MAX_FIT_STEPS: usize = 12;
 
-/// Distance from a cylinder, in units of the rounding, within which a point lies on it.
+/// Distance from a cylinder, in units of the rounding, within which a point lies on it. `benches/patterns.md` has what others give.
 const MAX_DISTANCE_ROUNDINGS: f64 = 4.0;
 
-/// Maximum area of a slender facet, as a share of the square of its longest side.
+/// Maximum area of a slender facet, as a share of the square of its longest side. `benches/patterns.md` has what others give.
 const MAX_SLENDER_SHARE: f64 = 0.05;
 
-/// Maximum angle of a strip of a bend, in radians.
+/// Maximum angle of a strip of a bend, in radians. `benches/patterns.md` has what others give.
 const MAX_STRIP_ANGLE: f64 = 0.15;
 
 /// Maximum angle of a bend, in radians: a tube has no two sides.

@@ -4,6 +4,7 @@ use crate::math::symmetric_eigen::symmetric_eigen3;
 use crate::scene::polyhedron::Place;
 
 /// Minimum sine of the angle between two lines whose corner is where they meet, and not where it was measured.
+/// `benches/patterns.md` has what others give.
 const MIN_CORNER_SINE: f64 = 0.2;
 
 /// A straight part of a line with noise: the numbers of its first and last points, and the line nearest to all of them.

@@ -7,6 +7,7 @@ use crate::pattern::sew::{
     CREASE_STRAIN_SHARE, MAX_CLOSED_GAP_RATIO, MAX_CLOSED_OVERLAP_SPACINGS, MAX_SEAM_STRAIN_FACTOR,
     MIN_HALVED_SEAM_NODES,
 };
+use crate::progress;
 use crate::scene::half_edges::next_half_edge;
 use crate::unroll::flat_triangle::Point;
 
@@ -51,6 +52,7 @@ impl Sheets<'_> {
         // Along one or two edges nothing says how two sheets lie.
         let is_open = |seam: &usize| !self.whole[*seam] && self.seams.all[*seam].sides.len() > 2;
         let mut pending: Vec<usize> = (0..self.seams.all.len()).filter(is_open).collect();
+        let mut tried = 0.0;
         loop {
             // The last one is the next.
             pending.sort_by(|a, b| {
@@ -60,7 +62,9 @@ impl Sheets<'_> {
             let Some(seam) = pending.pop() else {
                 return Ok(());
             };
-            if self.whole[seam] || self.close(seam)? {
+            tried += 1.0;
+            let end = tried / (tried + pending.len() as f64);
+            if self.whole[seam] || progress::part(end, || self.close(seam))? {
                 continue;
             }
             let edges = self.seams.all[seam].sides.len();

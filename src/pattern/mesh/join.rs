@@ -69,16 +69,19 @@ pub(super) fn join_parts(
         b.total_cmp(&a)
     });
     let steps = (order.len() + sheets.all.len()) as f64;
-    for (done, seam) in (1u32..).zip(&order) {
-        if !sheets.whole[*seam] {
-            progress::part(f64::from(done) / steps, || sheets.join(*seam, &order))?;
+    progress::part(0.7, || -> Result<()> {
+        for (done, seam) in (1u32..).zip(&order) {
+            if !sheets.whole[*seam] {
+                progress::part(f64::from(done) / steps, || sheets.join(*seam, &order))?;
+            }
         }
-    }
-    for number in 0..sheets.all.len() {
-        let done = order.len() + number + 1;
-        progress::part(done as f64 / steps, || sheets.settle(number))?;
-    }
-    sheets.close_cuts()?;
+        for number in 0..sheets.all.len() {
+            let done = order.len() + number + 1;
+            progress::part(done as f64 / steps, || sheets.settle(number))?;
+        }
+        Ok(())
+    })?;
+    progress::part(1.0, || sheets.close_cuts())?;
     let numbers = sheets.seams.put_together(&sheets.whole);
     let mut joined: Vec<Joined> = sheets.all.into_iter().flatten().collect();
     for sheet in &mut joined {

@@ -29,7 +29,7 @@ const files = [
   { name: 'meshes', limit: 345_000 },
   { name: 'fitmesh', limit: 234_000 },
   { name: 'unroll', limit: 357_000 },
-  { name: 'patterns', limit: 642_000 },
+  { name: 'patterns', limit: 656_000 },
 ];
 
 /**

@@ -43,7 +43,7 @@ function flagsFor(options, section) {
     const { flag: info, kind } = option;
     if (info === undefined || (section ?? info.section) !== info.section) return [];
     // Where the library is told whether something is wanted, the command is told where to write it.
-    const reading = readings[name] ?? (info.value === 'FILE' ? text : kind.typed ?? kind);
+    const reading = readings[name] ?? (info.value === 'FILE' ? text : info.value === 'MM' ? millimetres : kind.typed ?? kind);
     return [[flagName(name, option), { ...info, reading }]];
   });
   return Object.fromEntries(found);
@@ -95,6 +95,18 @@ const readings = {
 
 /** @type {Reading} */
 const numeral = /** @type {Reading} */ (number.typed);
+
+const MM_OF = { mm: 1, cm: 10, in: 25.4 };
+
+/** A length in millimetres, or in the unit that follows it. @type {Reading} */
+const millimetres = {
+  must: 'must be a number of millimetres, such as 150 or 15cm',
+  take(value) {
+    const [, amount, unit = 'mm'] = /^(.*?)\s*(mm|cm|in)?$/.exec(String(value)) ?? [];
+    const length = numeral.take(amount);
+    return length === undefined ? undefined : Number(length) * MM_OF[/** @type {keyof typeof MM_OF} */ (unit)];
+  },
+};
 
 /** Names of files with an ending, which lists of numbers have not. */
 export const CAMERA_FILE = /\.[a-z]\w*$/i;

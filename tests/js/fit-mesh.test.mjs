@@ -412,7 +412,7 @@ test('a mesh of which one side hides much is taken whole without a flag, and so 
   assert.match(told, /rough\.stl has no exact faces, .* by 0\.\d+/);
   assert.ok(fitted < 0.95 * kept, `${fitted} ${kept}`);
   assert.ok(Math.abs((await area('gable.stl'))[0] - 2 * 40 * Math.hypot(30, 10)) < 1e-6);
-  assert.ok(Math.abs((await area('box.stl', '--size', '60'))[0] - 4 * 2200) < 1e-6);
+  for (const size of ['60', '60mm', '6 cm']) assert.ok(Math.abs((await area('box.stl', '--size', size))[0] - 4 * 2200) < 1e-6, size);
   // A side is taken where it is asked for, and what else is there is said.
   const [above, warned] = await area('box.stl', '--view', '+z');
   assert.ok(Math.abs(above - 600) < 60, String(above));

@@ -39,6 +39,14 @@ fn roll_width<'de, D: serde::Deserializer<'de>>(sides: D) -> std::result::Result
 }
 
 impl Stock {
+    /// Checks the sizes of the material, before a pattern is made that may take minutes.
+    ///
+    /// # Errors
+    /// [`Error::Option`] for sizes that are not positive, finite and at most 50 metres.
+    pub fn check(self) -> Result<()> {
+        self.size(&[]).map(drop)
+    }
+
     /// Width and height in millimetres of what may lie on one page; `None` for a roll, which has room for any length.
     pub fn room(self) -> Option<[f64; 2]> {
         let free = self.size(&[]).ok()?.map(|side| side - 2.0 * self.blank());

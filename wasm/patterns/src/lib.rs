@@ -81,6 +81,7 @@ impl Wanted {
             drawing = drawing.bending(bending);
         }
         drawing.check()?;
+        own.stock.map(Stock::check).transpose()?;
         Ok(Wanted {
             patches,
             sheets: sheets.unrolling(unrolling),

@@ -96,6 +96,7 @@ const readings = {
 /** @type {Reading} */
 const numeral = /** @type {Reading} */ (number.typed);
 
+/** Millimetres in a centimetre and in an inch. */
 const MM_OF = { mm: 1, cm: 10, in: 25.4 };
 
 /** A length in millimetres, or in the unit that follows it. @type {Reading} */

@@ -9,7 +9,7 @@ use crate::files::failure::unsupported;
 /// A word that was recognised in the picture of a page, or a line of several.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BookWord<'a> {
-    /// Its characters in the order in which they are read. A word of white space alone is left out.
+    /// Characters of the word in the order in which they are read. A word of white space alone is left out.
     pub text: &'a str,
     /// Left, top, width and height of its box in pixels of the picture, from the picture's upper left corner.
     pub bounds: [f64; 4],

@@ -110,8 +110,7 @@ impl FlatPart {
 
     /// Moves the vertices from their current flat positions to those of the least strain.
     pub(super) fn relaxed(mut self, body: &Body, until: StoppingCriteria) -> Result<FlatPart> {
-        let own = self.members.iter().map(|t| body.triangles[*t as usize]);
-        let pieces: Vec<FlatTriangle> = own.map(|t| piece(body, t)).collect();
+        let pieces = self.pieces(body);
         self.relax(&pieces, until)?;
         Ok(self)
     }
@@ -119,11 +118,8 @@ impl FlatPart {
     /// Moves the vertices to the positions of least strain, as long as a limit seems within reach; most trials fail, and a few
     /// steps show that.
     pub(super) fn closed(mut self, body: &Body, limit: f64) -> Result<FlatPart> {
-        let own = self.members.iter().map(|t| body.triangles[*t as usize]);
-        let pieces: Vec<FlatTriangle> = own.map(|t| piece(body, t)).collect();
-        let whole = pieces.iter().copied().zip(self.triangles.iter().copied());
-        let whole = whole.filter(|(piece, _)| piece.exists()).collect();
-        let mut joint = ArapMesh::new(&self.places, whole, Vec::new())?;
+        let pieces = self.pieces(body);
+        let mut joint = self.problem(&pieces)?;
         for until in [TRIAL_RELAXATION, SHEET_RELAXATION] {
             joint.minimise_in_plane(&mut self.places, until)?;
             self.measure(&pieces);
@@ -134,10 +130,21 @@ impl FlatPart {
         Ok(self)
     }
 
-    fn relax(&mut self, pieces: &[FlatTriangle], until: StoppingCriteria) -> Result<()> {
+    /// Moves each triangle to a plane of its own.
+    fn pieces(&self, body: &Body) -> Vec<FlatTriangle> {
+        let own = self.members.iter().map(|t| body.triangles[*t as usize]);
+        own.map(|t| piece(body, t)).collect()
+    }
+
+    /// Creates the problem of laying the triangles that have an area flat together.
+    fn problem(&self, pieces: &[FlatTriangle]) -> Result<ArapMesh> {
         let whole = pieces.iter().copied().zip(self.triangles.iter().copied());
         let whole = whole.filter(|(piece, _)| piece.exists()).collect();
-        let mut joint = ArapMesh::new(&self.places, whole, Vec::new())?;
+        ArapMesh::new(&self.places, whole, Vec::new())
+    }
+
+    fn relax(&mut self, pieces: &[FlatTriangle], until: StoppingCriteria) -> Result<()> {
+        let mut joint = self.problem(pieces)?;
         // Slow progress in the first steps is no reason to stop: an error at one end takes several steps to reach
         // the other.
         let start = StoppingCriteria {

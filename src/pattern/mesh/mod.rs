@@ -216,6 +216,20 @@ mod tests {
         until: UNTIL,
     };
 
+    /// The triangles of a disk, ring by ring and sector by sector.
+    fn disk(rings: u32, sectors: u32, vertex: impl Fn(u32, u32) -> u32) -> Vec<Vec<[u32; 3]>> {
+        let cells = (0..rings).flat_map(|r| (0..sectors).map(move |s| (r, s)));
+        let cells = cells.map(|(ring, sector)| {
+            let [a, b] = [vertex(ring, sector), vertex(ring + 1, sector)];
+            let [c, d] = [vertex(ring + 1, sector + 1), vertex(ring, sector + 1)];
+            match ring {
+                0 => vec![[a, b, c]],
+                _ => vec![[a, b, c], [a, c, d]],
+            }
+        });
+        cells.collect()
+    }
+
     /// A disk of ten rings without 30 degrees, and a triangle, the last one, that stands upright on one side of the gap.
     fn disk_with_tooth() -> (Vec<Place>, Vec<[u32; 3]>) {
         let (rings, sectors) = (10u32, 5u32);
@@ -232,15 +246,7 @@ mod tests {
         };
         let mut places = vec![Place::zeros()];
         places.extend((1..=rings).flat_map(|r| (0..=sectors).map(move |s| place(r, s))));
-        let mut triangles = Vec::new();
-        for (ring, sector) in (0..rings).flat_map(|r| (0..sectors).map(move |s| (r, s))) {
-            let [a, b] = [vertex(ring, sector), vertex(ring + 1, sector)];
-            let [c, d] = [vertex(ring + 1, sector + 1), vertex(ring, sector + 1)];
-            triangles.push([a, b, c]);
-            if ring > 0 {
-                triangles.push([a, c, d]);
-            }
-        }
+        let mut triangles = disk(rings, sectors, vertex).concat();
         // Laid flat it would reach across the other side.
         let foot = [vertex(8, 0), vertex(7, 0)];
         let up = Place::new(0.75, 0.0, 0.45);
@@ -316,16 +322,12 @@ mod tests {
             0 => 0,
             _ => 1 + (ring - 1) * sectors + sector % sectors,
         };
-        let (mut triangles, mut halves) = (Vec::new(), Vec::new());
-        for (ring, sector) in (0..rings).flat_map(|r| (0..sectors).map(move |s| (r, s))) {
-            let [a, b] = [vertex(ring, sector), vertex(ring + 1, sector)];
-            let [c, d] = [vertex(ring + 1, sector + 1), vertex(ring, sector + 1)];
-            triangles.push([a, b, c]);
-            if ring > 0 {
-                triangles.push([a, c, d]);
-            }
-            halves.resize(triangles.len(), u32::from(sector >= sectors / 2));
-        }
+        let by_sector = disk(rings, sectors, vertex);
+        let halves = (0u32..).zip(&by_sector).flat_map(|(cell, own)| {
+            let half = u32::from(cell % sectors >= sectors / 2);
+            own.iter().map(move |_| half)
+        });
+        let (halves, triangles) = (halves.collect(), by_sector.concat());
         let mut body = Body::new(places, triangles, halves).unwrap();
         body.patches.fill(0);
         let joined = |strain: f64| {

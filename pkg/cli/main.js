@@ -2,23 +2,12 @@
 import { dispose, formatOf, init } from '../index.js';
 import { batchOf, runBatch } from './batch.js';
 import { split } from './command-line.js';
-import { completionFor } from './completion.js';
-import { dewarp } from './dewarp.js';
 import { asProblem } from './explain.js';
 import { readBytes } from './files.js';
-import { fit } from './fit.js';
 import { filesOf } from './globs.js';
-import { info } from './info.js';
-import { occlusions } from './occlusions.js';
-import { page } from './page.js';
-import { pattern } from './pattern.js';
 import { Problem, status } from './problem.js';
-import { sideOrWhole } from './side.js';
 import { isUntold, taskOf } from './task.js';
-import { analyze, patches, rulings } from './surface-commands.js';
 import { print, streams, withStreams } from './terminal.js';
-import { unroll } from './unroll.js';
-import { whole } from './mesh-commands.js';
 
 /** Signals that end the work in good order, without drafts left beside the output, and the exit status of each. */
 const SIGNALS = { SIGHUP: status.hungUp, SIGINT: status.interrupted, SIGTERM: status.terminated };
@@ -66,14 +55,29 @@ function interrupted(reason) {
 
 /** @typedef {(task: import('./task.js').Task, signal: AbortSignal) => Promise<void>} Action */
 
-/** The action of each command on one input. @type {Record<import('./commands.js').CommandName, Action>} */
+/** The action of each command on one input, loaded when it is asked for. @type {Record<import('./commands.js').CommandName, () => Promise<Action>>} */
 const actions = {
-  fit, design: fit, occlusions, analyze, patches, rulings, unroll, pattern, dewarp, info,
-  completion: ({ input }) => print(completionFor(input)),
+  fit: async () => (await import('./fit.js')).fit,
+  design: async () => (await import('./fit.js')).fit,
+  occlusions: async () => (await import('./occlusions.js')).occlusions,
+  analyze: async () => (await import('./surface-commands.js')).analyze,
+  patches: async () => (await import('./surface-commands.js')).patches,
+  rulings: async () => (await import('./surface-commands.js')).rulings,
+  unroll: async () => (await import('./unroll.js')).unroll,
+  pattern: async () => (await import('./pattern.js')).pattern,
+  dewarp: async () => (await import('./dewarp.js')).dewarp,
+  info: async () => (await import('./info.js')).info,
+  completion: async () => {
+    const { completionFor } = await import('./completion.js');
+    return ({ input }) => print(completionFor(input));
+  },
 };
 
-/** The action of all commands on inputs of some modes. @type {Partial<Record<import('./task.js').Mode, Action>>} */
-const modeActions = { photo: page, surface: whole };
+/** The action of all commands on inputs of some modes. @type {Partial<Record<import('./task.js').Mode, () => Promise<Action>>>} */
+const modeActions = {
+  photo: async () => (await import('./page.js')).page,
+  surface: async () => (await import('./mesh-commands.js')).whole,
+};
 
 /**
  * Finds out the formats of inputs whose names do not tell them. Of a file that cannot be read, the command that needs it says so;
@@ -106,8 +110,9 @@ async function perform(args, signal) {
   await tellFormats(inputs);
   const batch = batchOf({ ...line, inputs });
   if (batch !== undefined) return runBatch(batch, signal);
-  const task = await sideOrWhole(taskOf(line.command, inputs, line.values), line.values);
-  const action = modeActions[task.mode] ?? actions[task.command];
+  const given = taskOf(line.command, inputs, line.values);
+  const task = given.mode === 'mesh' ? await (await import('./side.js')).sideOrWhole(given, line.values) : given;
+  const action = await (modeActions[task.mode] ?? actions[task.command])();
   if (task.threads === undefined) {
     await action(task, signal);
   } else {

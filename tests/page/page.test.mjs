@@ -580,19 +580,21 @@ doorTest('on a phone a finger drags, and nothing scrolls', async (page) => {
   assert.ok(save <= phone.height, `${save}`);
 }, { size: phone, pixels: 2, phone: true });
 
-for (const width of [360, 768, 1280]) {
-  doorTest(`nothing of it sticks out at ${width} pixels, and every control has a name`, async (page) => {
-    await openPhoto(page, 'letter.png', photo);
+doorTest('nothing of it sticks out at any width, and every control has a name', async (page) => {
+  await openPhoto(page, 'letter.png', photo);
+  for (const width of [360, 768, 1280]) {
+    await page.setViewportSize({ width, height: 800 });
+    await painted(page);
     const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
-    assert.ok(excess <= 0, `${excess} pixels`);
-    const nameless = await page.evaluate(() => [...document.querySelectorAll('#page-side :is(button, input:not([type="file"]), select, canvas:not([aria-hidden]))')]
-      .filter((control) => {
-        const { labels } = /** @type {HTMLInputElement} */ (control);
-        return !control.getAttribute('aria-label') && !labels?.length && !control.textContent?.trim();
-      }).map((control) => control.outerHTML));
-    assert.deepEqual(nameless, []);
-  }, { size: { width, height: 800 } });
-}
+    assert.ok(excess <= 0, `${excess} pixels at ${width}`);
+  }
+  const nameless = await page.evaluate(() => [...document.querySelectorAll('#page-side :is(button, input:not([type="file"]), select, canvas:not([aria-hidden]))')]
+    .filter((control) => {
+      const { labels } = /** @type {HTMLInputElement} */ (control);
+      return !control.getAttribute('aria-label') && !labels?.length && !control.textContent?.trim();
+    }).map((control) => control.outerHTML));
+  assert.deepEqual(nameless, []);
+});
 
 doorTest('what is written of a flat page can be done without, and asked for again', async (page) => {
   await openPhoto(page, 'letter.png', photo);

@@ -1,7 +1,7 @@
 /** Opens a photo of a page: its pixels, a reduced copy for display and previews, and the outlines of the pages in it. */
 import { stemOf } from '../file-kinds.js';
 import { runInWorker } from '../worker-task.js';
-import { readPicture, reducedPhoto } from '../pixels.js';
+import { readPicture } from '../pixels.js';
 import { rescaleLine } from './flatten.js';
 
 /** @typedef {import('../../pkg/types.js').PageOutlines} PageOutlines */
@@ -37,7 +37,7 @@ export async function openPhoto(api, file, signal) {
   const photo = await runInWorker(api, signal, (worker) => worker.readPhoto(file)).catch((/** @type {unknown} */ error) => {
     signal.throwIfAborted();
     // Fall back on the browser, which may decode formats that the package cannot, and reduces photos that are too large.
-    return readPicture(file, MAX_REDUCED_PHOTO_PIXELS).catch(() => {
+    return readPicture(file, { maxPixels: MAX_REDUCED_PHOTO_PIXELS }).catch(() => {
       throw error;
     });
   });
@@ -56,7 +56,7 @@ export async function openPhoto(api, file, signal) {
 export async function preparePhoto(api, { width, height, data, film35, assumptions }, name, signal) {
   if (width < 16 || height < 16) throw new Error(`it is ${width} × ${height} pixels, too few to show a page`);
   const scale = Math.min(1, MAX_REDUCED_SIDE_PIXELS / Math.max(width, height));
-  const reduced = await reducedPhoto({ width, height, data }, scale);
+  const reduced = await readPicture({ width, height, data }, { scale });
   const outlines = await runInWorker(api, signal, (worker) => worker.findPage(reduced));
   return { name, width, height, data, film35, assumptions, reduced, scale, outlines: rescaleOutlines(outlines, 1 / scale) };
 }

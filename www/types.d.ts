@@ -30,6 +30,3 @@ type Subject = import('./panels/stage.js').Subject;
 type Task = import('./messages.js').Task;
 type Tell = import('./mesh-fit.js').Tell;
 type ViewContent = import('./surface/layer.js').ViewContent;
-
-/** Text recognition of the Shape Detection API, which few browsers have. */
-declare var TextDetector: undefined | (new () => { detect(image: ImageData): Promise<{ rawValue: string, boundingBox: DOMRectReadOnly }[]> });

@@ -66,7 +66,7 @@ export class Book {
    * @param {PageSession} session session of the photo that is shown
    * @param {PackageWorker} worker
    * @param {readonly [number, number] | null} paper size in millimetres; null for true size
-   * @param {boolean} text whether text is recognised where the browser cannot
+   * @param {boolean} text whether text is recognised
    * @param {(index: number) => void} onPhoto called before each photo
    * @returns the picture file and the size of each page
    * @throws if no photo can be flattened

@@ -32,14 +32,14 @@ export function similarPaper(width, height) {
  * @param {number} pages number of pages side by side
  * @param {number} quarters clockwise quarter turns of each page
  * @param {readonly [number, number] | null} paper size in millimetres; null for true size
- * @param {{ ink?: boolean, text?: boolean }} options whether the flat photo is black and white; whether its text is recognised where the browser cannot
+ * @param {{ ink?: boolean, text?: boolean }} options whether the flat photo is black and white; whether its text is recognised
  */
 export async function pictureFiles(worker, flat, pages, quarters, paper, { ink = false, text = false }) {
   const columns = Array.from({ length: pages }, (_, i) => [Math.round((i * flat.width) / pages), Math.round(((i + 1) * flat.width) / pages)]);
   const pictures = [];
   for (const [from, to] of columns) {
     const { width, height, data } = turnPicture(columnsOf(flat, from, to), quarters);
-    const words = await linesIn(new ImageData(data, width, height), text);
+    const words = text ? await linesIn(new ImageData(data, width, height)) : [];
     const picture = await worker.writePhoto({ width, height, data }, { format: ink ? 'png' : 'jpeg' });
     const size = /** @type {[number, number]} */ (paper ? [...paper] : [width / flat.resolution, height / flat.resolution]);
     pictures.push({ picture, size, words });

@@ -4,7 +4,7 @@ import { count, number, numberAgainst, percent } from './format.js';
 
 /**
  * Options of a pattern, with lengths in millimetres; `side` is the longer side of the finished surface.
- * @typedef {{ side: number } & Pick<PatternOptions, 'tabs' | 'thickness' | 'innerRadius' | 'kFactor' | 'assembly'>
+ * @typedef {{ side: number } & Pick<PatternOptions, 'tabs' | 'kerf' | 'thickness' | 'innerRadius' | 'kFactor' | 'assembly'>
  *   & Pick<import('../pkg/types.js').MeshPatternOptions, 'cut' | 'join'>} CutOptions
  */
 

@@ -2,6 +2,16 @@
 import { noDataOptions } from './import-interpretation.js';
 import { spacingOf } from './session.js';
 
+/** The paper of the method, for BibTeX. */
+export const CITATION = `@article{sellan2020developability,
+  author = {Sell{\\'a}n, Silvia and Aigerman, Noam and Jacobson, Alec},
+  title = {Developability of Heightfields via Rank Minimization},
+  journal = {ACM Transactions on Graphics},
+  volume = {39}, number = {4}, articleno = {109}, year = {2020},
+  doi = {10.1145/3386569.3392419}
+}
+`;
+
 /** Whether the heights are those of a file or an example. @param {Input} input */
 function isUnchanged({ sampling, depths }) {
   return !(sampling || depths);

@@ -82,7 +82,7 @@ pageTest('behind each door is an example, one click away, and Back leads to the 
   await page.goBack();
   await home.waitFor();
   assert.equal(await home.getByText('Opened before').isVisible(), false, 'nothing of one’s own');
-}, { start: '', unfolded: '' });
+}, { start: '', unfolded: [] });
 
 pageTest('what is dropped or pasted on the first screen opens its door', async (page) => {
   await drop(page, 'ramp.npy', npy(24, grid(24, 20, (col, row) => 3 * col + row)));
@@ -120,7 +120,7 @@ pageTest('few stops of the Tab key lead through a scan before more is asked for'
   const stops = await tabStops(page);
   assert.ok(stops.length > 8 && stops.length <= MAX_TAB_STOPS, `${stops.length}: ${stops.join(' · ')}`);
   assert.equal(await page.locator('.primary:visible').count(), 1, 'one main button');
-}, { unfolded: '', drawn: true });
+}, { unfolded: [], drawn: true });
 
 pageTest('a file that cannot be read leads back to the doors, though something was open before, and not away from what is shown', async (page) => {
   const home = page.locator('#home');

@@ -40,6 +40,12 @@ pageTest('the first visit shows a solved example with its certificate', async (p
   await page.locator('#certificate').click();
   const [above, below] = await Promise.all([page.locator('#copy-command'), reason].map((one) => one.boundingBox()));
   assert.ok(above && below && below.y > above.y && below.y < above.y + 3 * above.height, 'beneath it');
+  const cited = await page.evaluate(() => {
+    const copied = new Promise((resolve) => Object.defineProperty(navigator, 'clipboard', { value: { writeText: async (/** @type {string} */ text) => resolve(text) } }));
+    /** @type {HTMLButtonElement} */ (document.querySelector('#copy-citation')).click();
+    return /** @type {Promise<string>} */ (copied);
+  });
+  assert.match(cited, /^@article\{.*doi = \{10\.1145\/3386569\.3392419\}\s\}\s$/s);
   await page.locator('#certificate').click();
   // All that the page shows.
   assert.deepEqual([file.input.name, file.input.size, file.input.noise, file.settings.gap], ['roof', 400, 0.02, target]);

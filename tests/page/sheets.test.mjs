@@ -130,3 +130,31 @@ doorTest('a solid of sheet metal is cut as the blank that it is bent from', asyn
   await workBy(page, '.preview[aria-busy="true"]', () => page.getByLabel('K-factor').fill('0.4'));
   assert.equal((await shown.jsonValue()).times, 0);
 });
+
+doorTest('what is chosen is there on the next visit, and a kerf makes sheets larger by its width', async (page) => {
+  await openWhole(page, 'box.obj', obj({ points, triangles }));
+  const image = page.locator('.preview[aria-busy="false"] img');
+  const drawn = async () => {
+    const told = await page.locator('.sheets .figures div').filter({ has: page.locator('dt', { hasText: 'Drawing' }) }).locator('dd').textContent();
+    return String(told).split('×').map(parsed);
+  };
+  await page.locator('#end-sheets').click();
+  await image.waitFor();
+  await workBy(page, '.preview[aria-busy="true"]', () => page.getByLabel('Tabs to glue').uncheck());
+  const before = await drawn();
+  await workBy(page, '.preview[aria-busy="true"]', () => page.getByLabel('Kerf of a laser or saw, mm').fill('2'));
+  const after = await drawn();
+  // Half of it on each side.
+  after.forEach((side, k) => assert.ok(Math.abs(side - before[k] - 2) < 0.02 * side, `${before} → ${after}`));
+  await page.getByLabel('Paper', { exact: true }).selectOption('letter');
+  await page.getByRole('radio', { name: /^SVG / }).check();
+  await page.locator('#save-now:enabled').waitFor();
+  await page.waitForURL(/file=\d/);
+  await page.reload();
+  await page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
+  await page.locator('#end-sheets').click();
+  await image.waitFor();
+  assert.deepEqual([await page.getByLabel('Kerf of a laser or saw, mm').inputValue(), await page.getByLabel('Paper', { exact: true }).inputValue(), await page.getByLabel('Tabs to glue').isChecked()], ['2', 'letter', false]);
+  assert.ok(await page.getByRole('radio', { name: /^SVG / }).isChecked());
+  assert.deepEqual(await drawn(), after);
+});

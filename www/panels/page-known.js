@@ -1,6 +1,7 @@
 /** Options of a photo of a page: paper size, light, and number of pages. */
 import { element } from '../dom.js';
 import { above, choiceOf, fieldsOf } from '../fields.js';
+import { keep, kept } from '../kept.js';
 import { SAVE_WORDS } from '../messages.js';
 import { PAPERS } from '../page/paper.js';
 
@@ -23,7 +24,11 @@ const FIELDS = {
 /** @param {PageSession} session */
 export function pageKnownPanel(session) {
   const pages = choiceOf('pages', { 1: 'One page', 2: 'Two pages' }, (value) => (value === '2' ? session.addGutter() : session.removeGutter()));
-  const fields = fieldsOf(FIELDS, () => session.setOptions(readOptions()));
+  const fields = fieldsOf(FIELDS, () => {
+    keep('light', fields.text('page-light'));
+    session.setOptions(readOptions());
+  });
+  fields.set('page-light', kept('light', 'even'));
   element('format-field', HTMLElement).replaceChildren(...fields.nodes('page-format'));
   element('page-sides', HTMLElement).replaceChildren(...fields.nodes('page-wide', 'page-high'));
   element('light-field', HTMLElement).replaceChildren(...fields.nodes('page-light'));

@@ -2,7 +2,7 @@
 import { COPIED_NOTE_MS, download, element, make } from '../dom.js';
 import { count, number, percentAtMost, seconds } from '../format.js';
 import { ENERGIES, REPRODUCE_WORDS, STOP_REASONS, lambdaChoiceInWords } from '../messages.js';
-import { asCode, asCommand } from '../reproduce.js';
+import { asCode, asCommand, CITATION } from '../reproduce.js';
 import { showError, showNotice } from './notice.js';
 
 /** @typedef {[name: string, value: string, meaning: string]} Row */
@@ -32,6 +32,7 @@ export function reportPanel(session, analyses) {
   on('report-save', onSave('json', 'application/json', (report) => `${JSON.stringify(report, null, 2)}\n`));
   on('report-csv', onSave('csv', 'text/csv', (report) => [['quantity', 'value'], ...figuresOf(report)].map((cells) => `${cells.map(csvCell).join(',')}\r\n`).join('')));
   const offers = [copyButton('copy-command'), copyButton('copy-code')];
+  copyButton('copy-citation')(CITATION);
   const uncopied = element('report-uncopied', HTMLElement);
   /** @param {boolean} isThere */
   const showReport = (isThere) => {

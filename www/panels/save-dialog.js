@@ -2,6 +2,7 @@
 import { runInWorker } from '../worker-task.js';
 import { download, element, make } from '../dom.js';
 import { fileSize } from '../format.js';
+import { keep, kept } from '../kept.js';
 import { plainMessage } from '../error-messages.js';
 import { SAVE_WORDS } from '../messages.js';
 import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
@@ -34,8 +35,8 @@ const DOUBLE_CLICK_MS = 500;
 let present = null;
 /** Created with the first dialog. @type {ReturnType<typeof waitingPanel> | null} */
 let waiting = null;
-/** Formats that were chosen last, by the title of the dialog. @type {Map<string, string>} */
-const lastFormats = new Map();
+/** Formats that were chosen last, by the title of the dialog. @type {Record<string, string>} */
+const lastFormats = kept('formats', {});
 
 /**
  * Opens the dialog, and writes the file in the format that was chosen last.
@@ -52,7 +53,7 @@ export function offerToSave(api, { title, stem, ready = async () => {}, formats,
   element('save-title', HTMLElement).textContent = title;
   element('save-extra', HTMLElement).replaceChildren(...(unit ? [make('p', 'muted small', SAVE_WORDS.unit(unit))] : []), ...extra);
   const available = formats.filter(({ without }) => !without);
-  const initial = available.find(({ value }) => value === lastFormats.get(title)) ?? available[0];
+  const initial = available.find(({ value }) => value === lastFormats[title]) ?? available[0];
   const radios = formats.map(({ value, name, words, without }) => {
     const radio = make('input', '');
     Object.assign(radio, { type: 'radio', name: 'save-format', value, checked: value === initial?.value, disabled: without !== undefined });
@@ -84,7 +85,8 @@ export function offerToSave(api, { title, stem, ready = async () => {}, formats,
     save.disabled = true;
     share.hidden = true;
     if (!format) return;
-    lastFormats.set(title, format.value);
+    lastFormats[title] = format.value;
+    keep('formats', lastFormats);
     size.textContent = '';
     try {
       await ready();

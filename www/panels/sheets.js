@@ -2,6 +2,7 @@
 import { element, make, makeButton, SETTLING_MS } from '../dom.js';
 import { between, fieldsOf } from '../fields.js';
 import { number } from '../format.js';
+import { keep, kept } from '../kept.js';
 import { assemblyModel, drawingImage, MAX_SIDE_MM, MIN_SIDE_MM, MM_PER_UNIT, sheetFigures, sheetsInWords, smallestPiece, suggestedSide, trueSide } from '../pattern.js';
 import { hasCode, plainMessage } from '../error-messages.js';
 import { SHEET_WORDS } from '../messages.js';
@@ -15,7 +16,7 @@ import { waitingPanel } from './waiting.js';
 
 /** Returns the error message for a text of pairs of pieces; empty if it is valid. @param {string} text */
 const faultOfPairs = (text) => (parsePairs(text) ? '' : SHEET_WORDS.wrongPairs);
-/** Fields of the dialog. Values that were chosen last are the initial ones of the next dialog. @satisfies {Record<string, import('../fields.js').Field>} */
+/** Fields of the dialog. @satisfies {Record<string, import('../fields.js').Field>} */
 const FIELDS = {
   'sheet-unit': { label: 'Unit of its lengths', options: { ...Object.fromEntries(Object.keys(MM_PER_UNIT).map((name) => [name, SHEET_WORDS.unit(name)])), none: 'none: choose the size' } },
   'sheet-side': { label: 'Longer side when finished, mm', range: between(MIN_SIDE_MM, MAX_SIDE_MM) },
@@ -26,14 +27,17 @@ const FIELDS = {
   'sheet-thickness': { label: 'Thickness, mm', range: between(0.05, 20) },
   'sheet-radius': { label: 'Inner radius, mm', range: between(0, 100), optional: true, placeholder: 'as the thickness' },
   'sheet-k': { label: 'K-factor (neutral line)', range: between(0.1, 0.9) },
+  'sheet-kerf': { label: 'Kerf of a laser or saw, mm', range: between(0, 10) },
   'sheet-cut': { label: 'Cut between pieces', placeholder: SHEET_WORDS.pairs, wrong: faultOfPairs },
   'sheet-join': { label: 'Fold between pieces', placeholder: SHEET_WORDS.pairs, wrong: faultOfPairs },
 };
 /** @typedef {keyof typeof FIELDS} FieldName */
-/** @type {readonly FieldName[]} */
-const REMEMBERED = ['sheet-paper', 'sheet-material', 'sheet-tabs', 'sheet-tab-depth', 'sheet-thickness', 'sheet-radius', 'sheet-k'];
-/** What was chosen last. @type {Partial<Record<FieldName, string | boolean>>} */
-const lastOptions = { 'sheet-paper': /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', 'sheet-tabs': true, 'sheet-tab-depth': '6', 'sheet-thickness': '1', 'sheet-k': '0.44' };
+/** What was chosen last, on earlier visits too. */
+const lastOptions = {
+  'sheet-paper': /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', 'sheet-material': '', 'sheet-tabs': true, 'sheet-tab-depth': '6',
+  'sheet-thickness': '1', 'sheet-radius': '', 'sheet-k': '0.44', 'sheet-kerf': '0', ...kept('sheets', {}),
+};
+const REMEMBERED = /** @type {readonly (keyof typeof lastOptions)[]} */ (Object.keys(lastOptions));
 /** Sizes and units that were chosen last, by the stem of the file's name. @type {Map<string, { side: number, unit: string }>} */
 const lastSizes = new Map();
 /** Length of a piece below which it can hardly be held, folded and glued, in millimetres. */
@@ -65,7 +69,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
   // A size that is not the true one goes by no unit.
   const last = lastSizes.get(stem) ?? { unit: suggested === trueSide(length, unit) ? unit : 'none', side: suggested };
   const fields = fieldsOf(FIELDS);
-  for (const [name, value] of Object.entries(lastOptions)) fields.set(/** @type {FieldName} */ (name), value);
+  for (const name of REMEMBERED) fields.set(name, lastOptions[name]);
   fields.set('sheet-unit', last.unit);
   fields.set('sheet-side', last.side);
   fields.show(unit !== 'none', 'sheet-unit');
@@ -83,10 +87,15 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
     ...(fields.text('sheet-cut').trim() && { cut: parsePairs(fields.text('sheet-cut')) ?? [] }),
     ...(fields.text('sheet-join').trim() && { join: parsePairs(fields.text('sheet-join')) ?? [] }),
     side: side(),
+    kerf: fields.number('sheet-kerf'),
     ...(isMetal()
       ? { thickness: fields.number('sheet-thickness'), innerRadius: fields.text('sheet-radius') === '' ? undefined : fields.number('sheet-radius'), kFactor: fields.number('sheet-k') }
       : { tabs: fields.isChecked('sheet-tabs') ? fields.number('sheet-tab-depth') : undefined }),
   });
+  const keepOptions = () => {
+    for (const name of REMEMBERED) Object.assign(lastOptions, { [name]: name === 'sheet-tabs' ? fields.isChecked(name) : fields.text(name) });
+    keep('sheets', lastOptions);
+  };
   const showFields = () => {
     fields.show(!isMetal(), 'sheet-tabs');
     fields.show(!isMetal() && fields.isChecked('sheet-tabs'), 'sheet-tab-depth');
@@ -149,7 +158,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
       return offer.renew();
     }
     lastSizes.set(stem, { side: side(), unit: fields.text('sheet-unit') });
-    for (const name of REMEMBERED) lastOptions[name] = name === 'sheet-tabs' ? fields.isChecked(name) : fields.text(name);
+    keepOptions();
     status.textContent = '';
     again.hidden = true;
     preview.setAttribute('aria-busy', 'true');
@@ -215,13 +224,13 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
     again,
     ...fields.nodes('sheet-unit', 'sheet-side', 'sheet-paper', 'sheet-material', 'sheet-tabs', 'sheet-tab-depth'),
     metalNote,
-    ...fields.nodes('sheet-thickness', 'sheet-radius', 'sheet-k'),
+    ...fields.nodes('sheet-thickness', 'sheet-radius', 'sheet-k', 'sheet-kerf'),
     edges,
     make('details', 'more', make('summary', '', SHEET_WORDS.figures), about));
   options.addEventListener('input', ({ target }) => {
     clearTimeout(inputTimer);
     if (target === fields.control('sheet-paper')) {
-      lastOptions['sheet-paper'] = paper();
+      keepOptions();
       void drawing.then(showSize, () => {});
       return offer.renew();
     }

@@ -24,7 +24,7 @@ const args = [
 const SMALL_EXAMPLE = '#example=cylinder&size=64&noise=0.02';
 
 /** What of the page is folded at first. */
-const ALL_PARTS = 'view-more settings-more mesh-more file-more edges-more';
+const ALL_PARTS = ['view-more', 'settings-more', 'mesh-more', 'file-more', 'edges-more'];
 
 /** Where the page is served as `npm start` serves it, file by file; elsewhere it is bundled, as on the site. */
 const SOURCES = 'sources/';
@@ -122,7 +122,7 @@ function browserMissing() {
  * breaks its security policy (which Chromium reports as errors) or asks any other origin.
  * @param {string} name
  * @param {(page: Page) => Promise<void>} body
- * @param {import('playwright-core').BrowserContextOptions & { drawn?: boolean, moving?: boolean, size?: import('playwright-core').ViewportSize, pixels?: number, phone?: boolean, start?: string, sources?: boolean, unfolded?: string }} [options]
+ * @param {import('playwright-core').BrowserContextOptions & { drawn?: boolean, moving?: boolean, size?: import('playwright-core').ViewportSize, pixels?: number, phone?: boolean, start?: string, sources?: boolean, unfolded?: string[] }} [options]
  *   whether there is WebGL, which takes long without a graphics card: not unless said otherwise; whether anything moves by itself:
  *   not unless said otherwise; the size of the page; how many pixels of the device each of its pixels is wide; whether it is on a phone, under a finger; the part of the address after the #, which is a small example unless said
  *   otherwise; whether the page is served file by file; which parts are unfolded, all that are remembered unless said otherwise
@@ -133,7 +133,7 @@ export function pageTest(name, body, { drawn = false, moving = false, size, pixe
     if (moving) await page.emulateMedia({ reducedMotion: 'no-preference' });
     if (size) await page.setViewportSize(size);
     if (pixels > 1 || phone) await showOnDevice(page, pixels, phone);
-    await page.addInitScript((parts) => localStorage.setItem('developable: unfolded', parts), unfolded);
+    await page.addInitScript((parts) => localStorage.setItem('developable: unfolded', JSON.stringify(parts)), unfolded);
     if (!drawn) await page.addInitScript(withoutWebGL);
     await page.goto(server.url + (sources ? SOURCES : '') + start);
     await settled(page);
@@ -195,7 +195,7 @@ async function newTab(drawn) {
   const page = await context.newPage();
   await forget(page);
   const incidents = watch(page);
-  await page.addInitScript((parts) => localStorage.setItem('developable: unfolded', parts), ALL_PARTS);
+  await page.addInitScript((parts) => localStorage.setItem('developable: unfolded', JSON.stringify(parts)), ALL_PARTS);
   if (!drawn) await page.addInitScript(withoutWebGL);
   await page.goto(`${server.url}#`);
   return { page, incidents };

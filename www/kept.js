@@ -1,0 +1,25 @@
+/** What the user has chosen, kept in the local storage for the next visit. */
+
+/**
+ * What was kept under a name.
+ * @template T
+ * @param {string} name
+ * @param {T} otherwise where nothing was, or the browser keeps nothing
+ * @returns {T}
+ */
+export function kept(name, otherwise) {
+  try {
+    return JSON.parse(localStorage.getItem(`developable: ${name}`) ?? 'null') ?? otherwise;
+  } catch {
+    return otherwise;
+  }
+}
+
+/** Keeps something of plain data, if the browser keeps anything. @param {string} name @param {unknown} value */
+export function keep(name, value) {
+  try {
+    localStorage.setItem(`developable: ${name}`, JSON.stringify(value));
+  } catch {
+    // A private window, or a full disk.
+  }
+}

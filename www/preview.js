@@ -30,7 +30,7 @@ export class PreviewSolver {
   #levels = new Map();
   /** Heights of the last input, reduced for the finest preview. @type {{ data: ArrayLike<number>, heights: Promise<import('./surface/downsampling.js').Heights> } | null} */
   #reduced = null;
-  /** The newest request, until its finest preview is ready. @type {{ input: Input, settings: Settings, lambda?: number, abort: AbortController } | null} */
+  /** The newest request, until its finest preview is ready. @type {{ input: Input, settings: Settings, isFine: boolean, lambda?: number, abort: AbortController } | null} */
   #request = null;
   #isSolving = false;
   /** Timer that disposes of the idle worker. */
@@ -62,12 +62,13 @@ export class PreviewSolver {
    * Requests previews of an input, in place of those requested before.
    * @param {Input} input
    * @param {Settings} settings
+   * @param {boolean} isFine whether it is solved on all lattices, not on the coarsest alone
    * @param {number} [lambda] λ of the last result, which replaces `auto`
    */
-  request(input, settings, lambda) {
+  request(input, settings, isFine, lambda) {
     if ([this.#request, this.#finished].some((one) => one?.input === input && one.settings === settings)) return;
     this.#request?.abort.abort();
-    this.#request = { input, settings, lambda, abort: new AbortController() };
+    this.#request = { input, settings, isFine, lambda, abort: new AbortController() };
     if (!this.#isSolving) void this.#solveRequests();
   }
 
@@ -82,10 +83,10 @@ export class PreviewSolver {
     this.#isSolving = true;
     clearTimeout(this.#idleTimer);
     for (let request = this.#request; request; request = this.#request) {
-      const { input, settings, abort } = request;
+      const { input, settings, isFine, abort } = request;
       /** The coarsest lattice chooses λ for the finer ones. @type {Settings['lambda']} */
       let lambda = settings.lambda === 'auto' ? request.lambda ?? 'auto' : settings.lambda;
-      const sides = PREVIEW_SIDES_PIXELS.filter((side, i) => i === 0 || 1.5 * side < Math.max(input.width, input.height));
+      const sides = PREVIEW_SIDES_PIXELS.filter((side, i) => i === 0 || (isFine && 1.5 * side < Math.max(input.width, input.height)));
       for (let i = 0; i < sides.length && (i === 0 || !abort.signal.aborted); i++) {
         try {
           const preview = await this.#solve(input, { ...settings, lambda }, sides[i], i === 0 ? undefined : abort.signal);

@@ -257,7 +257,7 @@ export class Session extends Events {
     this.#runPending = true;
     if (this.phase !== 'running') this.emit('start', this.settings);
     this.#setPhase('running');
-    this.#requestPreview(input);
+    this.#requestPreview(input, true);
   }
 
   /** Lets changes of settings start runs, or ends the run and defers others while a whole mesh is shown. @param {boolean} enabled */
@@ -269,9 +269,9 @@ export class Session extends Events {
     if (enabled && this.#runRequested && last && !isSame(last, this.settings)) void this.run();
   }
 
-  /** @param {Input} input */
-  #requestPreview(input) {
-    this.#previews.request(input, this.settings, this.result?.surface.report.lambda);
+  /** @param {Input} input @param {boolean} isFine whether pictures of finer lattices follow the first one */
+  #requestPreview(input, isFine) {
+    this.#previews.request(input, this.settings, isFine, this.result?.surface.report.lambda);
   }
 
   /** Solves the present input, warm-started from its last result if there is one; aborts the present run. */
@@ -285,11 +285,12 @@ export class Session extends Events {
     clearTimeout(this.#idleTimer);
     this.emit('start', settings);
     this.#setPhase('running');
-    if (isPreviewed(input)) this.#requestPreview(input);
+    // A finer picture of a small input would come little before the result, and delay it.
+    if (isPreviewed(input)) this.#requestPreview(input, isLarge(input));
     const { coarsening, ...options } = settings;
     try {
-      // Copying a large input to the worker takes time: let the browser draw first.
-      if (this.#openSolver?.input !== input) await new Promise((resolve) => setTimeout(resolve));
+      // Copying a large input to the worker takes time: let the browser draw first. Others are solved while the scene is made.
+      if (isLarge(input) && this.#openSolver?.input !== input) await new Promise((resolve) => setTimeout(resolve));
       if (this.#job !== job) return;
       const solver = await this.#solverFor(input);
       if (this.#job !== job) return;

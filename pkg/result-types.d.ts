@@ -714,11 +714,11 @@ export interface LambdaChoice {
 
 /**
  * Reason for the λ that `'auto'` has chosen.
- * - `'prediction'`: λ follows from size and correlation length of the noise, and the penalty is the one that predicts
- *   held-out heights best (cross-validation).
- * - `'noise'`: λ follows from size and correlation length of the noise, without cross-validation: the energy has no
- *   parameters, there are too few heights to hold some out, or their noise is correlated, so that held-out noise could
- *   be predicted.
+ * - `'prediction'`: λ follows from size and correlation length of the noise, and the penalty is the one that best
+ *   predicts held-out heights (cross-validation). Where noise is correlated, penalty and λ, up to a factor, are those
+ *   that best predict heights with another draw of it (data thinning).
+ * - `'noise'`: λ follows from size and correlation length of the noise, without a comparison of penalties: the energy
+ *   has no parameters, or there are too few heights to predict.
  * - `'noNoise'`: The heights have hardly any noise: λ is `'big'`, or larger, so that the surface keeps within
  *   `tolerance`.
  * - `'tolerance'`: λ is the smallest one that keeps the surface within `tolerance`.

@@ -48,8 +48,8 @@ export const solver = {
    *
    * `'auto'` finds it from the size of the heights' noise, and corrects it on a coarse lattice where the surface there is
    * farther from the heights than noise explains. With the energy `'huber'` it tries several sets of parameters on a coarse
-   * lattice, too, and takes the one that predicts held-out heights best. Heights without noise stay within 0.2 % of
-   * their range; an input whose noise cannot be measured, such as a design, has 1e6.
+   * lattice, too, and takes the one that best predicts heights that were not fitted. Heights without noise stay within
+   * 0.2 % of their range; an input whose noise cannot be measured, such as a design, has 1e6.
    * `report.lambdaChoice` tells what was found.
    */
   lambda: {

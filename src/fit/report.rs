@@ -129,12 +129,12 @@ pub struct LevelReport {
 )]
 #[non_exhaustive]
 pub enum LambdaReason {
-    /// λ follows from size and correlation length of the noise, and the penalty is the one that predicts held-out heights
-    /// best (cross-validation).
+    /// λ follows from size and correlation length of the noise, and the penalty is the one that best predicts held-out
+    /// heights (cross-validation). Where noise is correlated, penalty and λ, up to a factor, are those that best predict
+    /// heights with another draw of it (data thinning).
     Prediction,
-    /// λ follows from size and correlation length of the noise, without cross-validation: the energy has no parameters,
-    /// there are too few heights to hold some out, or their noise is correlated, so that held-out noise could be
-    /// predicted.
+    /// λ follows from size and correlation length of the noise, without a comparison of penalties: the energy has no
+    /// parameters, or there are too few heights to predict.
     Noise,
     /// The heights have hardly any noise: λ is [`Lambda::Big`](crate::Lambda::Big), or larger, so that the surface keeps
     /// within [`LambdaChoice::tolerance`].

@@ -7,14 +7,9 @@ use crate::fit::input::Input;
 use crate::fit::options::{Energy, HuberOptions, LAMBDA_RANGE, Lambda, Options};
 use crate::fit::report::{LambdaChoice, LambdaReason};
 
-/// Product `λ σ h` under white noise, in normalised coordinates: σ is the noise's standard deviation, h the spacing. The
-/// best λ is about there (`benches/scenes.md`, One constant at a time).
-const WHITE_LAMBDA_NOISE: f64 = 8.0;
-
-/// Product `λ σ h √A` under correlated noise, of which `A` vertices share a value, in
-/// normalised coordinates. It is larger than under white noise, since a shape beside such noise makes the noise look
-/// larger than it is (`benches/scenes.md`).
-const CORRELATED_LAMBDA_NOISE: f64 = 14.0;
+/// Product `λ σ h √A` under noise of standard deviation σ, of which `A` vertices share a value, where h is the spacing, in normalised
+/// coordinates. The best λ is about there (`benches/scenes.md`, One constant at a time).
+const LAMBDA_NOISE: f64 = 8.0;
 
 /// λ of an input that is free of noise.
 const WITHOUT_NOISE: Lambda = Lambda::Big;
@@ -92,13 +87,7 @@ pub(crate) fn initial_options(
         iterations: 0,
     };
     let mut aim = noise.map(Aim::Noise);
-    let lambda = noise.map(|noise| {
-        let product = match noise.is_correlated() {
-            true => CORRELATED_LAMBDA_NOISE,
-            false => WHITE_LAMBDA_NOISE,
-        };
-        product / (noise.product * scale * scale)
-    });
+    let lambda = noise.map(|noise| LAMBDA_NOISE / (noise.product * scale * scale));
     let is_noise = noise.is_some_and(|noise| noise.white_equivalent > MIN_NOISE_SHARE * range);
     let lambda = match lambda {
         None => Lambda::Medium,
@@ -139,7 +128,7 @@ pub(crate) fn initial_options(
 /// proportion to the ratio of λ to the λ that suits the noise, up to the nuclear norm, which has no crease passes.
 pub(crate) fn with_huber_defaults(options: &Options, noise: Option<Noise>, scale: f64) -> Options {
     let noise_to_signal = noise.map_or(0.0, |noise| {
-        options.lambda_or_default().value() * noise.product * scale * scale / WHITE_LAMBDA_NOISE
+        options.lambda_or_default().value() * noise.product * scale * scale / LAMBDA_NOISE
     });
     let flatness = HuberOptions::SMOOTH.flatness * noise_to_signal.max(1.0);
     let quiet = HuberOptions {

@@ -155,15 +155,23 @@ fn response(scale: &CurvatureScale, discs: &[Disc], length: f64) -> f64 {
         return 1.0;
     }
     let spacing = f64::from(1u32 << scale.lattice);
-    let own = (length / spacing).powi(2);
-    // Means over four vertices of a rhombus are blurred by these: their variance along an axis is a quarter of the squared spacing,
-    // and that of all coarsenings `(4ᵏ − 1)/12`. The noise has less variance by that.
-    let blurred = own + (1.0 - 1.0 / (spacing * spacing)) / 12.0;
+    let [blur, share] = blurred_by_means(length, spacing);
     let pairs = discs[scale.disc].autocorrelation.iter();
     let sum: f64 = pairs
-        .map(|(distance, product)| product * (-distance / (4.0 * blurred)).exp())
+        .map(|(distance, product)| product * (-distance / (4.0 * blur * blur)).exp())
         .sum();
-    spacing * (own / blurred * sum).sqrt()
+    spacing * share * sum.sqrt()
+}
+
+/// Returns the correlation length of noise on a lattice that was coarsened by means over four vertices, in its spacings, and the share
+/// of the standard deviation that is left there. `length` is that of the noise and `spacing` the lattice's, both in spacings of
+/// the lattice before.
+pub(super) fn blurred_by_means(length: f64, spacing: f64) -> [f64; 2] {
+    let own = (length / spacing).powi(2);
+    // Means over four vertices of a rhombus are blurred by these: their variance along an axis is a quarter of the squared spacing,
+    // and that of all coarsenings `(4ᵏ − 1)/12`.
+    let blurred = own + (1.0 - 1.0 / (spacing * spacing)) / 12.0;
+    [blurred.sqrt(), (own / blurred).sqrt()]
 }
 
 #[cfg(test)]

@@ -45,15 +45,7 @@ pub(super) struct Disc {
 
 impl Disc {
     pub(super) fn new(radius: usize) -> Option<Self> {
-        let reach = radius as isize;
-        let offsets: Vec<(isize, isize)> = (-reach..=reach)
-            .flat_map(|row| (-2 * reach..=2 * reach).map(move |half| (row, half)))
-            .filter(|(row, half)| (row + half) % 2 == 0)
-            .filter(|offset| {
-                let [x, y] = position(*offset);
-                x.hypot(y) <= radius as f64 + 1e-9
-            })
-            .collect();
+        let offsets = offsets_within(radius);
         let row_of = |offset: &(isize, isize)| {
             let [x, y] = position(*offset);
             SVector::<f64, 6>::from([1.0, x, y, 0.5 * x * x, x * y, 0.5 * y * y])
@@ -120,7 +112,8 @@ fn autocorrelation(offsets: &[(isize, isize)], hessian: &[[f64; 3]]) -> Vec<(f64
     sums
 }
 
-fn position((row, half): (isize, isize)) -> [f64; 2] {
+/// Returns the position of an offset, in rows and half columns, for a spacing of 1.
+pub(super) fn position((row, half): (isize, isize)) -> [f64; 2] {
     [0.5 * half as f64, -ROW_SPACING * row as f64]
 }
 
@@ -268,6 +261,19 @@ fn ruling(hessians: &[Sym2]) -> [f64; 2] {
 fn curvature(hessian: Sym2, [cos, sin]: [f64; 2]) -> f64 {
     let [xx, xy, yy] = hessian.entries();
     cos * cos * xx + 2.0 * cos * sin * xy + sin * sin * yy
+}
+
+/// Returns the offsets, in rows and half columns, of all vertices within a radius, for a spacing of 1.
+pub(super) fn offsets_within(radius: usize) -> Vec<(isize, isize)> {
+    let reach = radius as isize;
+    (-reach..=reach)
+        .flat_map(|row| (-2 * reach..=2 * reach).map(move |half| (row, half)))
+        .filter(|(row, half)| (row + half) % 2 == 0)
+        .filter(|offset| {
+            let [x, y] = position(*offset);
+            x.hypot(y) <= radius as f64 + 1e-9
+        })
+        .collect()
 }
 
 /// Returns row and column of the vertex at an offset, in rows and half columns, from the vertex at `row` and `col`.

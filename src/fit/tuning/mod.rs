@@ -3,7 +3,6 @@
 pub(crate) mod closed_form;
 mod correlated_noise;
 mod curvature_scales;
-pub(crate) mod held_out;
 pub(crate) mod line_residuals;
 pub(crate) mod merge;
 pub(crate) mod noise;
@@ -11,3 +10,4 @@ pub(crate) mod refinement;
 pub(crate) mod residual;
 pub(crate) mod search;
 mod trust;
+pub(crate) mod validation;

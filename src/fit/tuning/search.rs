@@ -1,22 +1,22 @@
 //! Choice of λ and of the penalty by solves on coarse lattices, before the one solve at full size.
 //!
 //! The distance of a coarse solve's surface to the heights tells whether λ suits: it is the size of the noise, or the
-//! tolerance that was asked for. Which bends are cheap and which of them are creases follows from cross-validation, where
-//! noise is independent from vertex to vertex.
+//! tolerance that was asked for. Which bends are cheap and which of them are creases follows from heights whose noise a solve
+//! does not know.
 
 use std::sync::Arc;
 
 use web_time::Instant;
 
 use super::closed_form::{InputStatistics, with_huber_defaults};
-use super::held_out::HeldOut;
 use super::merge::merge;
 use super::refinement::{Aim, Next, Refinement};
 use super::residual::root_mean_square;
+use super::validation::Validation;
 use crate::error::Result;
 use crate::fit::component_solver::{ComponentSolver, PreparedInput, StartMode, Status};
 use crate::fit::input::Input;
-use crate::fit::options::{Energy, HuberOptions, Options};
+use crate::fit::options::{Energy, HuberOptions, LAMBDA_RANGE, Options};
 use crate::fit::report::{LambdaChoice, LambdaReason};
 use crate::fit::warm_start::WarmStart;
 
@@ -31,6 +31,9 @@ const MIN_COARSE_VERTICES: usize = 400;
 /// (`benches/scenes.md`, One constant at a time).
 const SEARCH_GAP: f64 = 0.05;
 
+/// Factor between the values of λ that are compared under correlated noise (`benches/scenes.md`, Data thinning).
+const LAMBDA_STEP: f64 = 3.0;
+
 /// Choice of λ and of the penalty in progress.
 #[derive(Debug, Clone)]
 pub(crate) struct Search {
@@ -41,9 +44,9 @@ pub(crate) struct Search {
     solve: Box<ComponentSolver>,
     /// Penalty that is best so far.
     penalty: HuberOptions,
-    /// Whether noise is independent from vertex to vertex of the coarse lattice, so that it predicts no held-out heights.
-    is_independent: bool,
-    /// Whether penalties were compared.
+    /// Spacing of the coarse lattice, in those of the input's.
+    spacings: f64,
+    /// Whether candidates were compared.
     is_compared: bool,
     solves: usize,
     raises: usize,
@@ -58,19 +61,29 @@ enum Stage {
         input: Input,
         refinement: Refinement,
     },
-    /// Candidates are compared by cross-validation.
-    Penalty(Comparison),
+    /// Candidates are compared by validation.
+    Comparison(Comparison),
 }
 
-/// Cross-validation in progress.
+/// Validation of candidates in progress.
 #[derive(Debug, Clone)]
 struct Comparison {
-    held_out: HeldOut,
-    penalties: Vec<HuberOptions>,
-    now: usize,
-    best: usize,
+    validation: Validation,
+    /// Candidates that are still to be solved with; the last one is next.
+    left: Vec<Candidate>,
+    now: Candidate,
+    best: Candidate,
     /// Squared prediction error of the best candidate.
     error: f64,
+    /// Whether values of λ are to be compared after the penalties.
+    compares_lambda: bool,
+}
+
+/// Penalty and λ.
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    penalty: HuberOptions,
+    lambda: f64,
 }
 
 impl Search {
@@ -109,9 +122,7 @@ impl Search {
             },
             solve: Box::new(solve),
             penalty,
-            is_independent: statistics
-                .noise
-                .is_some_and(|noise| spacings.log2() >= noise.merged as f64),
+            spacings,
             is_compared: false,
             solves: 0,
             raises: 0,
@@ -165,50 +176,59 @@ impl Search {
                     }
                 }
             }
-            Stage::Penalty(comparison) => {
-                comparison.take(comparison.held_out.squared_error(surface.heightfield()));
-                let Some(penalty) = comparison.penalties.get(comparison.now).copied() else {
-                    self.penalty = comparison.penalties[comparison.best];
-                    return Ok(false);
-                };
-                let warm_start = self
-                    .solve
-                    .warm_start(comparison.held_out.input.field.lattice());
-                let options = trial_options(&self.first, penalty);
-                *self.solve = trial(
-                    &comparison.held_out.input,
-                    &options,
-                    self.statistics,
-                    warm_start,
-                )?;
-                Ok(true)
+            Stage::Comparison(comparison) => {
+                comparison.take(comparison.validation.squared_error(surface.heightfield()));
+                let is_left = comparison.step();
+                let (input, best) = (&comparison.validation.input, comparison.best);
+                if is_left {
+                    let warm_start = self.solve.warm_start(input.field.lattice());
+                    let options = comparison.options(&self.first);
+                    *self.solve = trial(input, &options, self.statistics, warm_start)?;
+                } else {
+                    self.penalty = best.penalty;
+                    self.first = self.first.lambda(best.lambda);
+                }
+                Ok(is_left)
             }
         }
     }
 
-    /// Starts the comparison of penalties on the coarse lattice if noise is independent there, the energy is one of them, and enough
-    /// heights can be held out; returns whether it does.
+    /// Starts the comparison of candidates on the coarse lattice if there are any, and enough heights validate them; returns whether
+    /// it does. Under correlated noise these are penalties, and then values of λ; else penalties alone.
     fn start_comparison(&mut self, coarse: &Input) -> Result<bool> {
-        if !self.is_independent || self.first.energy_or_default() != Energy::Huber {
-            return Ok(false);
-        }
-        let Some(held_out) = HeldOut::from_input(coarse)? else {
+        let Some(noise) = self.statistics.noise else {
             return Ok(false);
         };
+        let has_penalties = self.first.energy_or_default() == Energy::Huber;
+        // The noise of pixels is independent from vertex to vertex of a lattice that is coarser.
+        let is_independent = self.spacings.log2() >= noise.merged as f64;
+        let validation = match noise.is_correlated() {
+            true => Validation::by_thinning(coarse, noise, self.spacings)?,
+            false if has_penalties && is_independent => Validation::by_held_out_heights(coarse)?,
+            false => None,
+        };
+        let Some(validation) = validation else {
+            return Ok(false);
+        };
+        let lambda = self.first.lambda_or_default().value();
+        let candidate = |penalty| Candidate { penalty, lambda };
+        let others = OTHER_PENALTIES.into_iter().rev().filter(|_| has_penalties);
         let comparison = Comparison {
-            penalties: [self.penalty].into_iter().chain(OTHER_PENALTIES).collect(),
-            now: 0,
-            best: 0,
+            left: others.map(candidate).collect(),
+            now: candidate(self.penalty),
+            best: candidate(self.penalty),
             error: f64::INFINITY,
-            held_out,
+            compares_lambda: noise.is_correlated(),
+            validation,
         };
+        let options = comparison.options(&self.first);
         *self.solve = trial(
-            &comparison.held_out.input,
-            &trial_options(&self.first, self.penalty),
+            &comparison.validation.input,
+            &options,
             self.statistics,
             None,
         )?;
-        self.stage = Stage::Penalty(comparison);
+        self.stage = Stage::Comparison(comparison);
         self.is_compared = true;
         Ok(true)
     }
@@ -231,12 +251,34 @@ impl Search {
 }
 
 impl Comparison {
-    /// Compares a penalty's squared prediction error with the least one.
+    /// Compares a candidate's squared prediction error with the least one.
     fn take(&mut self, error: f64) {
         if error < self.error {
             (self.best, self.error) = (self.now, error);
         }
-        self.now += 1;
+    }
+
+    /// Goes on to the next candidate; returns whether there is one.
+    fn step(&mut self) -> bool {
+        if self.left.is_empty() && self.compares_lambda {
+            self.compares_lambda = false;
+            let Candidate { penalty, lambda } = self.best;
+            let [low, high] = [LAMBDA_RANGE.start(), LAMBDA_RANGE.end()];
+            let factors = [LAMBDA_STEP, 1.0 / LAMBDA_STEP];
+            self.left.extend(factors.map(|factor| Candidate {
+                penalty,
+                lambda: (factor * lambda).clamp(*low, *high),
+            }));
+        }
+        let next = self.left.pop();
+        self.now = next.unwrap_or(self.now);
+        next.is_some()
+    }
+
+    /// Returns the options of the solve with the present candidate.
+    fn options(&self, first: &Options) -> Options {
+        let lambda = self.now.lambda * self.validation.lambda_factor;
+        trial_options(&first.lambda(lambda), self.now.penalty)
     }
 }
 

@@ -50,7 +50,6 @@ async function heightArrayNames(reader, file) {
 /** @param {string} type such as `u16` */
 function numberTypeInWords(type) {
   const [, letter, bits] = /^([a-z]+)(\d+)$/.exec(type) ?? [];
-  /** @type {Record<string, string>} */
-  const names = { u: 'integers', i: 'signed integers', f: 'floats' };
-  return names[letter] ? `${bits}-bit ${names[letter]}` : type;
+  const name = { u: 'integers', i: 'signed integers', f: 'floats' }[letter];
+  return name ? `${bits}-bit ${name}` : type;
 }

@@ -1,6 +1,4 @@
 /** Reads the sheets of a pattern's assembly as one mesh. */
-import { borderEdges } from './triangles.js';
-
 /**
  * Reads an assembly. The rotation of its root node is ignored, so that z is up.
  * @param {Uint8Array} model a pattern's assembly, a GLB file in metres
@@ -40,28 +38,6 @@ export function readAssemblyMesh(model) {
     for (const corner of numbers(indices)) triangles.push(first + corner);
   }
   return { positions: Float64Array.from(positions), triangles: Uint32Array.from(triangles), sheets: Uint32Array.from(sheets) };
-}
-
-/** The border lines of a mesh: the vertices along each, the first one again at the end. @param {Uint32Array} triangles */
-export function borderLines(triangles) {
-  /** @type {Map<number, Set<number>>} */
-  const next = new Map();
-  for (const [a, b] of borderEdges(triangles)) {
-    if (!next.has(a)) next.set(a, new Set());
-    next.get(a)?.add(b);
-  }
-  /** @type {Uint32Array[]} */
-  const lines = [];
-  for (const first of next.keys()) {
-    const line = [first];
-    for (let on = next.get(first); on && on.size > 0; on = next.get(line[line.length - 1])) {
-      const [to] = on;
-      on.delete(to);
-      line.push(to);
-    }
-    if (line.length > 1) lines.push(Uint32Array.from(line));
-  }
-  return lines;
 }
 
 /** Rotates a point by a quaternion, then translates it. @param {number[]} place @param {ArrayLike<number>} turn @param {ArrayLike<number>} shift */

@@ -1,8 +1,8 @@
 /** Draws a picture of an assembled pattern at an angle: its sheets in their colours, with their numbers. */
-import { readAssemblyMesh, borderLines } from './assembly-mesh.js';
+import { readAssemblyMesh } from './assembly-mesh.js';
 import { CREASE_COLOUR, patchColour } from './colours.js';
 import { PAPER_LOOKS, SceneView } from './scene.js';
-import { boxOf } from './triangles.js';
+import { borderEdges, boxOf } from './triangles.js';
 
 /** @import {Vector} from './scene.js' */
 
@@ -23,7 +23,7 @@ export async function builtPicture(model, up) {
   const { positions, triangles, sheets } = readAssemblyMesh(model);
   const scene = await SceneView.create(document.createElement('canvas'), PICTURE_SIZE);
   scene.setLook(PAPER_LOOKS[up]);
-  const borders = borderLines(triangles).map((line) => ({ points: Array.from(line, (vertex) => /** @type {Vector} */ ([positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]])), colour: CREASE_COLOUR, width: LINE_WIDTH_PIXELS }));
+  const borders = borderEdges(triangles).map((ends) => ({ points: ends.map((vertex) => /** @type {Vector} */ ([positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]])), colour: CREASE_COLOUR, width: LINE_WIDTH_PIXELS }));
   scene.setBox(boxOf(positions));
   scene.setSurface(0, { positions, triangles, colors: Float32Array.from([...sheets].flatMap((sheet) => patchColour(sheet)), (value) => value / 255) });
   scene.setLines(0, borders);

@@ -291,17 +291,14 @@ export class SceneView {
     if (this.#isFitDue) return;
     this.#camera.updateMatrixWorld();
     const point = new this.#three.Vector3();
-    const [low, high] = [[Infinity, Infinity], [-Infinity, -Infinity]];
+    const box = new this.#three.Box3();
     for (const { array } of this.#sides.flatMap(({ surface }) => surface?.geometry.getAttribute('position') ?? [])) {
-      for (let i = 0; i < array.length; i += 3) {
-        point.fromArray(array, i).applyMatrix4(this.#camera.matrixWorldInverse);
-        [low[0], high[0]] = [Math.min(low[0], point.x), Math.max(high[0], point.x)];
-        [low[1], high[1]] = [Math.min(low[1], point.y), Math.max(high[1], point.y)];
-      }
+      for (let i = 0; i < array.length; i += 3) box.expandByPoint(point.fromArray(array, i).applyMatrix4(this.#camera.matrixWorldInverse));
     }
-    if (low[0] === Infinity) return;
-    this.#camera.zoom = Math.min(...this.#halfSides.map((side, k) => (2 * FILLED_SHARE * side) / (high[k] - low[k] || 1)));
-    const shift = new this.#three.Vector3((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, 0).applyQuaternion(this.#camera.quaternion);
+    if (box.isEmpty()) return;
+    const size = box.getSize(point).toArray();
+    this.#camera.zoom = Math.min(...this.#halfSides.map((side, k) => (2 * FILLED_SHARE * side) / (size[k] || 1)));
+    const shift = box.getCenter(point).setZ(0).applyQuaternion(this.#camera.quaternion);
     this.#camera.position.add(shift);
     this.#controls.target.add(shift);
     this.drawSoon();

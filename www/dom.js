@@ -62,8 +62,16 @@ export function oncePerFrame(draw) {
 
 /** Time after the last of several changes before what follows from them is done, in milliseconds. */
 export const SETTLING_MS = 400;
-/** Time for which a note stands that something was copied, in milliseconds. */
-export const COPIED_NOTE_MS = 4000;
+/** Time for which a button says that something was copied, in milliseconds. */
+const COPIED_NOTE_MS = 4000;
+
+/** Copies a text, and says so on a button for a while. @param {HTMLButtonElement} button @param {string} text @param {string} [words] */
+export async function copyText(button, text, words = 'Copied') {
+  await navigator.clipboard.writeText(text);
+  const label = (button.dataset.label ??= button.textContent ?? '');
+  button.textContent = words;
+  setTimeout(() => (button.textContent = label), COPIED_NOTE_MS);
+}
 
 /**
  * Keeps the resolution of a canvas at that of the device.

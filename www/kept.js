@@ -1,4 +1,5 @@
 /** What the user has chosen, kept in the local storage for the next visit. */
+import { elements } from './dom.js';
 
 /**
  * What was kept under a name.
@@ -21,5 +22,15 @@ export function keep(name, value) {
     localStorage.setItem(`developable: ${name}`, JSON.stringify(value));
   } catch {
     // A private window, or a full disk.
+  }
+}
+
+/** Unfolds the parts of the page that were unfolded last. */
+export function unfoldParts() {
+  const all = elements('details[id]', HTMLDetailsElement);
+  const unfolded = kept('unfolded', /** @type {string[]} */ ([]));
+  for (const one of all) {
+    one.open = unfolded.includes(one.id);
+    one.addEventListener('toggle', () => keep('unfolded', all.filter(({ open }) => open).map(({ id }) => id)));
   }
 }

@@ -3,7 +3,6 @@ import { isStart, stateOf } from './address.js';
 import { Analyses } from './analyses.js';
 import { connect } from './api.js';
 import { element } from './dom.js';
-import { detailsPanel } from './panels/details.js';
 import { filesPanel } from './panels/files.js';
 import { galleryPanel } from './panels/gallery.js';
 import { watchDrops, watchIncoming } from './panels/incoming.js';
@@ -21,13 +20,14 @@ import { stripPanel } from './panels/strip.js';
 import { PROGRESS_DELAY_MS, waitingPanel } from './panels/waiting.js';
 import { heightsPanel } from './panels/heights.js';
 import { meshFitPanel } from './panels/mesh-fit.js';
+import { unfoldParts } from './kept.js';
 import { Session } from './session.js';
 import { MeshFit } from './mesh-fit.js';
 import { loadThree } from './surface/scene.js';
 import { errorMessage } from './messages.js';
 
 async function start() {
-  detailsPanel();
+  unfoldParts();
   const { photo, whole } = stateOf(location.hash);
   const isScene = !isStart(location.hash) && !photo;
   // What draws the first scene is fetched beside the solver. The scene reports the error of an import that failed.

@@ -47,7 +47,7 @@ export const TASK_WORDS = {
 /** Messages about files that were dropped on the wrong part of the page, or that cannot be read. */
 export const FILE_WORDS = {
   /** @param {string} name @param {string} what */
-  unread: (name, what) => `“${name}” is ${what}. This page opens photos of pages (JPEG, PNG, WebP, GIF, BMP, TIFF), heights and depths (TIFF, EXR, PFM, NPY, NPZ, PGM, SRTM, grids in text, grey PNG), and meshes and point clouds (OBJ, PLY, STL, 3MF, OFF, GLB, XYZ).`,
+  unread: (name, what) => `“${name}” is ${what}. This page opens photos of pages (JPEG, PNG, WebP, GIF, BMP, TIFF, PDF), heights and depths (TIFF, EXR, PFM, NPY, NPZ, PGM, SRTM, grids in text, grey PNG), and meshes and point clouds (OBJ, PLY, STL, 3MF, OFF, GLB, XYZ).`,
   /** @param {number} n */
   takenForPages: (n) => (n === 1 ? 'Taken for a photo of a page.' : 'Taken for photos of pages.'),
   heightsInstead: 'Heights instead?',
@@ -112,6 +112,7 @@ export const VERDICTS = {
 /** Messages about the file of an address. */
 export const ADDRESS_WORDS = {
   lost: 'This browser has not kept the file of this address. Open the file again.',
+  withoutFile: 'Copied, without the file',
   unkept: 'This browser could not keep the file (it is too large, or this is a private window). Open the file again.',
 };
 

@@ -1,7 +1,7 @@
 /** Keeps the page's address up to date with its state, for links, the history and reloads; and lists recent files. */
 import { addressOf, isStart, stateOf } from '../address.js';
 import { isExampleModel } from '../doors/example-model.js';
-import { COPIED_NOTE_MS, element, elements, make, makeButton, SETTLING_MS } from '../dom.js';
+import { copyText, element, elements, makeButton, SETTLING_MS } from '../dom.js';
 import { ADDRESS_WORDS } from '../messages.js';
 import { recentFiles, storedFiles, storedOutlines, storeFiles, storeOutlines } from '../recent-files.js';
 import { showNotice } from './notice.js';
@@ -203,16 +203,7 @@ export function addressSyncPanel(session, page) {
     const state = presentState();
     // The id of a file has no meaning on another machine.
     const address = new URL(addressOf({ ...state, file: undefined, stored: undefined }, session.defaults), location.href).href;
-    const fileNote = state.example || state.card ? '' : ' It holds the settings; the file stays on this machine.';
-    try {
-      await navigator.clipboard.writeText(address);
-      const note = make('span', 'copied small', `The link is copied.${fileNote}`);
-      note.setAttribute('role', 'status');
-      button.after(note);
-      setTimeout(() => note.remove(), COPIED_NOTE_MS);
-    } catch {
-      showNotice(`${address} – copy this link.${fileNote}`, 'note');
-    }
+    await copyText(button, address, state.example || state.card ? undefined : ADDRESS_WORDS.withoutFile).catch(() => showNotice(address, 'note'));
   });
 
   return {

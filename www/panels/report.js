@@ -1,5 +1,5 @@
 /** The report as a table, with an explanation of each row. */
-import { COPIED_NOTE_MS, download, element, make } from '../dom.js';
+import { copyText, download, element, make } from '../dom.js';
 import { count, number, percentAtMost, seconds } from '../format.js';
 import { ENERGIES, REPRODUCE_WORDS, STOP_REASONS, lambdaChoiceInWords } from '../messages.js';
 import { asCode, asCommand, CITATION } from '../reproduce.js';
@@ -52,18 +52,8 @@ export function reportPanel(session, analyses) {
 /** A button that copies a text. @param {string} id @returns {(text: string | null) => void} offers a text, or none */
 function copyButton(id) {
   const button = element(id, HTMLButtonElement);
-  const label = button.textContent;
-  let [offered, timer] = ['', 0];
-  button.addEventListener('click', async () => {
-    try {
-      await navigator.clipboard.writeText(offered);
-      button.textContent = 'Copied';
-      clearTimeout(timer);
-      timer = window.setTimeout(() => (button.textContent = label), COPIED_NOTE_MS);
-    } catch {
-      showNotice(offered, 'note');
-    }
-  });
+  let offered = '';
+  button.addEventListener('click', () => copyText(button, offered).catch(() => showNotice(offered, 'note')));
   return (text) => {
     offered = text ?? '';
     button.disabled = text === null;

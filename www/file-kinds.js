@@ -16,7 +16,6 @@ const UNREADABLE_KINDS = [
   [/\.(docx?|odt|rtf|pages)$/i, 'a text document'],
   [/\.(xlsx?|ods|numbers)$/i, 'a spreadsheet'],
   [/\.(pptx?|odp|key)$/i, 'a presentation'],
-  [/\.pdf$/i, 'a PDF; take a photo of its page, or save the page as a PNG'],
   [/\.(json|ya?ml|csv|xml|conf|ini)$/i, 'a text without heights; if it is a camera, open it together with its depths'],
   [COLMAP_CAMERAS, 'cameras without depths; open it together with them'],
   [/\.(txt|md|html?|log)$/i, 'a text'],
@@ -31,6 +30,9 @@ const UNREADABLE_KINDS = [
 export function stemOf({ name }) {
   return name.replace(/\.[^.]*$/, '');
 }
+
+/** Whether a file is a PDF, whose pages are pictures. @param {{ name: string, type: string }} file */
+export const isPdf = ({ name, type }) => /\.pdf$/i.test(name) || type === 'application/pdf';
 
 /** Whether a file is a mesh. @param {string} name */
 export function isMesh(name) {

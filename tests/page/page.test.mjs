@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { pageCautions, pageErrors } from '../../www/page/messages.js';
 import { flattenWholePhoto } from '../../www/page/flatten.js';
+import { init, load, writeBook } from '../../pkg/direct.js';
 import { readPdf, readPdfPicture } from '../js/support/drawings.mjs';
 import { parsed } from './support/numbers.mjs';
 import { choose, doorTest, drop, dropAll, ended, enterPages, look, painted, saveAs } from './support/page.mjs';
@@ -217,6 +218,31 @@ doorTest('photos that are opened together become one PDF, each with its own outl
   await flattened(page);
   assert.equal(await numbers.count(), 4);
   assert.deepEqual(await placeOf(page, 'Upper left corner'), placed, 'as it was left');
+});
+
+doorTest('the pages of a PDF are photos of pages, read by what is loaded only then', async (page) => {
+  /** @type {string[]} */
+  const asked = [];
+  page.on('request', (request) => asked.push(request.url()));
+  await init();
+  await load('files');
+  const pdf = Buffer.from(writeBook([photo, photo].map((picture) => ({ picture, size: [200, 150] }))));
+  assert.equal(asked.filter((url) => /pdf-/.test(url)).length, 0);
+  await dropAll(page, { 'scan.pdf': pdf });
+  await page.locator('#page-caption', { hasText: 'scan-1' }).waitFor();
+  await flattened(page);
+  assert.deepEqual(asked.filter((url) => /pdf-/.test(url)).map((url) => /pdf-[a-z]+/.exec(url)?.[0]).sort(), ['pdf-client', 'pdf-worker']);
+  const numbers = page.locator('#book').getByRole('button', { name: /^Photo \d/ });
+  assert.equal(await numbers.count(), 2);
+  assert.equal(await page.getByRole('alert').isVisible(), false);
+  const flat = await flatPng(page);
+  assert.ok(misplaced(flat) < 0.003);
+  // With 300 dots to the inch, the photo has three times as many as it had.
+  assert.ok(flat.width > 700, `${flat.width} pixels`);
+  await page.keyboard.press('Escape');
+  await dropAll(page, { 'torn.pdf': pdf.subarray(0, 300) });
+  await page.getByRole('alert').filter({ hasText: /“torn\.pdf” could not be read/ }).waitFor();
+  assert.equal(await numbers.count(), 2);
 });
 
 doorTest('text is recognised in the PDF when it is asked for, by what is loaded only then', async (page) => {

@@ -1,6 +1,6 @@
 /**
  * Libraries that come along, with their licences, for the package has no dependencies: comlink with its types; commander and
- * tinyglobby for the command, as one file each; and for the page what it needs of three.js, fflate, and Tesseract with its
+ * tinyglobby for the command, as one file each; and for the page what it needs of three.js, fflate, pdf.js, and Tesseract with its
  * model of English.
  */
 import { copyFile, mkdir, readFile, writeFile } from 'node:fs/promises';
@@ -22,6 +22,7 @@ export async function buildVendor() {
   await bundle('commander', 'esm.mjs', await readFile(join(root, 'node_modules/commander/typings/index.d.ts'), 'utf8'));
   await bundleThree();
   await copyTesseract();
+  await copyPdf();
 }
 
 async function copyComlink() {
@@ -88,4 +89,13 @@ async function copyTesseract() {
   await copyFile(join(library, 'dist/tesseract-core.wasm'), join(wwwVendor, 'text-core.wasm'));
   await copyFile(join(model, 'eng.traineddata.gz'), join(wwwVendor, 'text-english.bin'));
   await copyFile(join(library, 'LICENSE.md'), join(wwwVendor, 'LICENSE-tesseract-wasm'));
+}
+
+/** pdf.js, which the page loads when a PDF is opened, with its decoders of pictures. */
+async function copyPdf() {
+  const library = join(root, 'node_modules/pdfjs-dist');
+  for (const [from, to] of [
+    ['legacy/build/pdf.min.mjs', 'pdf-client.js'], ['legacy/build/pdf.worker.min.mjs', 'pdf-worker.js'], ['LICENSE', 'LICENSE-pdfjs'],
+    ...['jbig2', 'openjpeg', 'qcms'].flatMap((name) => [[`wasm/${name === 'qcms' ? 'qcms_bg' : name}.wasm`, `pdf-${name}.wasm`], [`wasm/LICENSE_${name.toUpperCase()}`, `LICENSE-${name}`]]),
+  ]) await copyFile(join(library, from), join(wwwVendor, to));
 }

@@ -8,7 +8,7 @@ import { rescaleLine } from './flatten.js';
 /** @typedef {import('../../pkg/types.js').PageOutline} PageOutline */
 
 /** Maximum number of pixels of a photo that the browser decodes because it is too large for the package. */
-const MAX_REDUCED_PHOTO_PIXELS = 16e6;
+export const MAX_REDUCED_PHOTO_PIXELS = 16e6;
 /** Maximum length of the reduced copy's longer side, in pixels. */
 const MAX_REDUCED_SIDE_PIXELS = 1280;
 

@@ -1,7 +1,8 @@
 /** Opens files of any kind, wherever they come from: the kind of a file chooses the part of the page. */
-import { kindByName, unreadableKindInWords } from '../file-kinds.js';
+import { isPdf, kindByName, unreadableKindInWords } from '../file-kinds.js';
 import { isInColour, namesOfLeft, routeFiles } from '../file-routing.js';
 import { FILE_WORDS } from '../messages.js';
+import { picturesOfPdf } from '../page/pdf.js';
 import { showNotice } from './notice.js';
 
 /** @import {Mode} from './mode.js' */
@@ -47,8 +48,13 @@ export function filesPanel(session, mode, source, page) {
 
   /** The mode of the page before the files that are being opened as heights, and how many openings are under way. @type {{ mode: Mode, openings: number }} */
   const earlier = { mode: 'home', openings: 0 };
-  /** @param {readonly File[]} files @param {boolean} [arePages] whether pictures were opened as pages */
+  /** @param {readonly File[]} files @param {boolean} [arePages] whether pictures were opened as pages @returns {Promise<void>} */
   const open = async (files, arePages = mode.now === 'photo') => {
+    const pdf = files.find(isPdf);
+    if (pdf) {
+      const pages = await session.whileOpening(`“${pdf.name}” could not be read`, 'reading', (signal) => picturesOfPdf(pdf, signal));
+      return pages ? open(files.flatMap((file) => (file === pdf ? pages : file)), true) : undefined;
+    }
     const { to, files: taken, left } = await routeFiles(files, arePages);
     if (to === 'none') return showNotice(FILE_WORDS.unread(files[0].name, unreadableKindInWords(files[0])));
     const leftOut = left.length > 0 ? FILE_WORDS.leftOut(namesOfLeft(left), to === 'heights' && kindByName(taken[0]) !== 'mesh') : '';

@@ -5,7 +5,7 @@ import { element, elements, onFilesChosen } from '../dom.js';
 /** @typedef {'page' | 'model' | 'scan'} Door */
 
 /** Endings that the file dialog of a door offers: any for heights. @type {Partial<Record<Door, string>>} */
-const ACCEPTED = { page: 'image/*', model: '.obj,.ply,.stl,.glb,.gltf,.3mf,.off,.xyz,.mtl,image/*' };
+const ACCEPTED = { page: 'image/*,.pdf', model: '.obj,.ply,.stl,.glb,.gltf,.3mf,.off,.xyz,.mtl,image/*' };
 
 /**
  * @param {(files: File[], door?: Door) => unknown} open opens files; of a door, if they were chosen there

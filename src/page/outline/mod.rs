@@ -5,7 +5,7 @@
 //! its convex hull. The regions most like a page get exact edges, each the path of most contrast in a band along the
 //! border (Viterbi), and corners where these edges meet. Where no region has a clear outline,
 //! the page is searched around its print: in a frame that is turned like the lines of print each edge is a path that stands
-//! out from the texture around it (Viterbi again). What that gives is never more than doubtful.
+//! out from the texture around it (Viterbi again), smooth or not, whichever is seen better. What that gives is never more than doubtful.
 
 mod candidates;
 mod colour_model;

@@ -9,7 +9,7 @@ use super::planes::Planes;
 use super::print::Print;
 use super::quadrilateral::rectangularity;
 use crate::math::planar::polygon_area;
-use crate::page::best_path::best_path;
+use crate::page::best_path::{best_path, smooth_path};
 
 /// Number of directions among which that of the lines of print is searched, over half a turn.
 const PRINT_DIRECTIONS: usize = 90;
@@ -101,11 +101,19 @@ struct Side {
 }
 
 impl Side {
-    /// Finds the best paths that keep apart from each other.
-    fn best_paths(&self) -> [Vec<usize>; PATHS_PER_SIDE] {
+    /// Finds the best paths that keep apart from each other; each beside a smooth one if `is_smooth`.
+    fn best_paths(&self, is_smooth: bool) -> [Vec<usize>; PATHS_PER_SIDE] {
         let mut worth = self.worth.clone();
         std::array::from_fn(|_| {
-            let path = best_path(worth.chunks_exact(self.reach), STEP_COST);
+            let mut searched = worth.clone();
+            if is_smooth {
+                let guide = smooth_path(&worth, self.reach, AVERAGING_RADIUS);
+                for (row, at) in searched.chunks_exact_mut(self.reach).zip(guide) {
+                    row[..at.saturating_sub(AVERAGING_RADIUS)].fill(f32::NEG_INFINITY);
+                    row[(at + AVERAGING_RADIUS + 1).min(self.reach)..].fill(f32::NEG_INFINITY);
+                }
+            }
+            let path = best_path(searched.chunks_exact(self.reach), STEP_COST);
             for (row, r) in worth.chunks_exact_mut(self.reach).zip(&path) {
                 let near =
                     r.saturating_sub(AVERAGING_RADIUS)..(r + AVERAGING_RADIUS + 1).min(row.len());
@@ -264,8 +272,17 @@ impl PrintFrame {
 
     /// Finds the outline around the print that is seen best, and its score from 0 to 1: the geometric mean over its edges of
     /// their strength, less what continues beyond the corners, and of its likeness to a page by shape and the share of the print within.
+    /// Paper is smooth and crumpled ground is not, but some pages are crumpled, too: both kinds of paths are tried.
     pub fn best_outline(&self, print: &Print) -> Option<(f64, Arcs)> {
-        let paths = self.sides.each_ref().map(Side::best_paths);
+        [true, false]
+            .into_iter()
+            .filter_map(|is_smooth| self.outline_by_paths(is_smooth, print))
+            .max_by(|one, other| one.0.total_cmp(&other.0))
+    }
+
+    /// Finds the best outline of those that the paths of one kind make.
+    fn outline_by_paths(&self, is_smooth: bool, print: &Print) -> Option<(f64, Arcs)> {
+        let paths = (self.sides.each_ref()).map(|side| side.best_paths(is_smooth));
         let mut best: Option<(f64, Arcs)> = None;
         for n in 0..PATHS_PER_SIDE.pow(4) {
             let chosen: [&[usize]; 4] = std::array::from_fn(|k| {

@@ -61,8 +61,16 @@ pub(crate) fn orientation<P: Planar>(a: P, b: P, c: P) -> f64 {
 }
 
 /// Returns whether two segments intersect. A segment that only touches the other one with an end counts or does not, by
-/// the side that the end is on after rounding.
+/// the side that the end is on after rounding. Segments beside each other on one line do not intersect, however they are rounded.
 pub(crate) fn segments_intersect<P: Planar>([a, b]: [P; 2], [c, d]: [P; 2]) -> bool {
+    let [a_to_b, a_to_c, a_to_d] = [b, c, d].map(|p| difference(a, p));
+    let are_beside = (0..2).any(|k| {
+        let (low, high) = (a_to_b[k].min(0.0), a_to_b[k].max(0.0));
+        a_to_c[k].max(a_to_d[k]) < low || a_to_c[k].min(a_to_d[k]) > high
+    });
+    if are_beside {
+        return false;
+    }
     let separates = |p, q, r, s| (orientation(p, q, r) > 0.0) != (orientation(p, q, s) > 0.0);
     separates(a, b, c, d) && separates(c, d, a, b)
 }
@@ -331,6 +339,14 @@ mod tests {
         assert_eq!(line_intersection(rising, falling, 0.0), Some([1.0, 2.0]));
         let beyond = [[3.0, 1.0], [5.0, 1.0]];
         assert!(!segments_intersect(rising, beyond));
+        // Pieces of one slanting line, whose points are rounded.
+        let on = |k: usize| [0.1 * k as f64, 0.3 * (0.1 * k as f64) + 0.7];
+        for k in 0..50 {
+            assert!(!segments_intersect(
+                [on(k), on(k + 1)],
+                [on(k + 2), on(k + 3)]
+            ));
+        }
         assert_eq!(line_intersection(rising, beyond, 0.0), Some([0.5, 1.0]));
         let parallel = [[1.0, 0.0], [2.0, 2.0]];
         assert_eq!(line_intersection(rising, parallel, 0.0), None);

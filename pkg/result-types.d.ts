@@ -409,8 +409,6 @@ export interface DrawingSummary {
   strain: number;
   /** Largest seam gap of a fold in millimetres: root mean square distance between the fold's two sides. */
   seamGap: number;
-  /** Number of small loops that were cut off where outlines crossed themselves. */
-  loops: number;
   /**
    * Largest root mean square distance between a refolded sheet and the surface, in millimetres; `undefined` unless
    * `refold` was set.

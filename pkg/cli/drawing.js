@@ -112,8 +112,8 @@ function reportSlits({ slits, slitLength, sheets, strain }) {
   );
 }
 
-/** Warns of parts of the surface that are on no sheet, and of loops that were cut off. @param {import('../types.js').Drawing['summary']} summary */
-function reportMissing({ missing, loops }) {
+/** Warns of parts of the surface that are on no sheet. @param {import('../types.js').Drawing['summary']} summary */
+function reportMissing({ missing }) {
   const squares = (/** @type {number} */ area) => `${(area / 100).toFixed(area < 1000 ? 1 : 0)} cm²`;
   const words = [];
   if (missing !== undefined && missing.vertices > 0) {
@@ -122,7 +122,6 @@ function reportMissing({ missing, loops }) {
   if (missing !== undefined && missing.steps > 0) {
     words.push(`the walls of ${counted(missing.steps, 'step')} (about ${squares(missing.stepArea)}) on no sheet`);
   }
-  if (loops > 0) words.push(`${counted(loops, 'small loop')} in which outlines crossed themselves cut off`);
   if (words.length > 0) toStderr(`developable: warning: ${words.join('; ')}\n`);
 }
 

@@ -26,7 +26,7 @@ export const limits = {
   },
   /**
    * Maximum seam gap of a fold: root mean square distance between its two sides on the flat sheet, as a share of its length.
-   * A quarter of the lattice's spacing, or of a mesh's mean edge, is always allowed.
+   * A quarter of the mean edge of the mesh that is cut is always allowed.
    */
   maxSeamGap: {
     kind: number,
@@ -100,14 +100,14 @@ export const drawing = {
       help: 'where the neutral line is within the thickness, from the inside of a bend (default 0.44)',
     },
   },
-  /** Maximum distance by which outlines and folds are smoothed, in spacings of the lattice or mean edges of the mesh; 0 for none. */
+  /** Maximum distance by which outlines and folds are smoothed, in mean edges of the mesh that is cut; 0 for none. */
   smoothing: {
     kind: number,
     default: 0.5,
     flag: {
       section: 'shape',
       value: 'SPACINGS',
-      help: 'maximum distance of smoothed lines from those found, in lattice spacings; 0 draws these as they are (default 0.5)',
+      help: 'maximum distance of smoothed lines from those found, in mean edges of the mesh that is cut; 0 draws these as they are (default 0.5)',
     },
   },
   /** Whether all texts are left out, except the names of sheets. */

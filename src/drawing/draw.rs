@@ -44,7 +44,7 @@ fn untabbed(sheets: &[Sheet], drawn: &[DrawnSheet]) -> usize {
     let runs = sheets
         .iter()
         .flat_map(|sheet| sheet.outlines.iter().flatten());
-    let glued = runs.filter_map(|run| run.seam.filter(|seam| !seam.torn).map(|seam| seam.crease));
+    let glued = runs.filter_map(|run| run.seam.map(|seam| seam.crease));
     let mut creases: BTreeSet<usize> = glued.collect();
     for tab in drawn.iter().flat_map(|sheet| &sheet.tabs) {
         creases.remove(&tab.crease);

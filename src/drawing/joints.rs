@@ -180,7 +180,7 @@ impl Outlines {
             for outline in &own.outlines {
                 let count = outline.len();
                 for (k, (run, curve)) in outline.iter().enumerate() {
-                    if let (Some(seam), Some(patch)) = (run.seam.filter(|s| !s.torn), run.patch) {
+                    if let (Some(seam), Some(patch)) = (run.seam, run.patch) {
                         let joint = joints.entry(seam.crease).or_default();
                         joint[usize::from(patch == seam.patches[1])].push(sides.len());
                     }
@@ -350,7 +350,6 @@ mod tests {
             direction: Direction::Mountain,
             angle: 0.5,
             slit: false,
-            torn: false,
         };
         Run {
             seam: crease.map(seam),
@@ -372,7 +371,6 @@ mod tests {
             area: 50.0,
             strain: 0.0,
             seam_gap: 0.0,
-            loops: 0,
             refolding: None,
             exact: false,
         }

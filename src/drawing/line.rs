@@ -18,7 +18,7 @@ pub(super) const FLATTENING_TOLERANCE_MM: f64 = 0.02;
 #[non_exhaustive]
 pub struct Line {
     /// Number of the crease that the fold line follows, from 0, its index in
-    /// [`Patches::creases`](crate::shape::patches::Patches::creases).
+    /// [`Pattern::creases`](crate::pattern::Pattern::creases).
     pub crease: usize,
     /// Numbers of the patches on either side of the fold line, from 0, the lower one first.
     #[cfg_attr(feature = "serde", serde(default))]

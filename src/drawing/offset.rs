@@ -3,9 +3,9 @@
 use super::circle::with_arcs;
 use super::curve::{CIRCLE_TOLERANCE_MM, Curve, MIN_CORNER_TURN};
 use super::line::FLATTENING_TOLERANCE_MM;
+use super::loops::remove_loops;
 use super::smooth::smooth;
 use crate::math::planar::polygon_area;
-use crate::pattern::remove_loops;
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 
@@ -37,17 +37,7 @@ pub(super) fn offset_outwards(curves: &[Curve], distance: f64, exact: bool) -> O
             continue;
         }
         let raw = beside(&ring, distance);
-        let closed: Vec<Point> = raw.iter().chain(raw.first()).copied().collect();
-        let (runs, _) = remove_loops(
-            vec![(None, closed)],
-            MAX_LOOP_FACTOR * distance.max(OFFSET_DETAIL_MM),
-        );
-        let clean: Vec<Point> = (runs.into_iter())
-            .flat_map(|(_, mut points)| {
-                points.pop();
-                points
-            })
-            .collect();
+        let clean = remove_loops(raw, MAX_LOOP_FACTOR * distance.max(OFFSET_DETAIL_MM));
         // A hole that is narrower than the offset disappears.
         if polygon_area(&clean) * polygon_area(&ring) > 0.0 {
             moved.push(clean);

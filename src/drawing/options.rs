@@ -30,8 +30,8 @@ pub struct DrawingOptions {
     /// edge. Default: no bend allowance.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub bending: Option<Bending>,
-    /// Maximum distance of the drawn, smooth lines from the outlines and folds found on the lattice, in lattice
-    /// spacings; 0 disables smoothing. The two sides of joints may be moved by the same distance again to become
+    /// Maximum distance of the drawn, smooth lines from the outlines and folds of the mesh that was cut, in mean lengths of its edges
+    /// ([`Sheet::spacing`](crate::pattern::Sheet::spacing)); 0 disables smoothing. The two sides of joints may be moved by the same distance again to become
     /// equally long. Default 0.5.
     pub smoothing: f64,
     /// Whether all texts are left out except the sheets' names. Default `false`.
@@ -145,7 +145,7 @@ impl DrawingOptions {
         }
     }
 
-    /// Sets the maximum distance of smooth lines from the lattice's lines, in lattice spacings, and returns the
+    /// Sets the maximum distance of smooth lines from those of the mesh that was cut, in mean lengths of its edges, and returns the
     /// options.
     pub fn smoothing(self, smoothing: f64) -> Self {
         DrawingOptions { smoothing, ..self }

@@ -113,7 +113,7 @@ pub(super) fn swapped_tabs(
     let runs = outlines.iter().copied().flatten().flatten();
     let lacking: BTreeSet<usize> = runs
         .filter_map(|(run, curve)| {
-            let crease = run.seam.filter(|seam| !seam.torn)?.crease;
+            let crease = run.seam?.crease;
             let enough = MIN_TABBED_SHARE * curve.length() * depth?;
             (area(&first, &crease) < enough).then_some(crease)
         })
@@ -136,7 +136,7 @@ pub(super) fn add_tabs(
     let tabbed = |run: &Run| {
         let has_tab = |seam: &Seam| {
             let side = usize::from(swapped.contains(&seam.crease));
-            run.patch == Some(seam.patches[side]) && !seam.torn
+            run.patch == Some(seam.patches[side])
         };
         let own = run.seam.filter(has_tab);
         depth.zip(own)

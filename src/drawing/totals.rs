@@ -68,8 +68,6 @@ pub struct Totals {
     pub strain: f64,
     /// Largest seam gap of a fold in millimetres: root mean square distance between the fold's two sides.
     pub seam_gap: f64,
-    /// Number of small loops that were cut off where outlines crossed themselves.
-    pub loops: usize,
     /// Largest root mean square distance between a refolded sheet and the surface, in millimetres; `None` unless
     /// [`PatternOptions::refold`](crate::pattern::PatternOptions::refold) was set.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
@@ -102,7 +100,6 @@ struct Joint {
     crease: usize,
     patches: [u32; 2],
     slit: bool,
-    torn: bool,
     sides: [f64; 2],
 }
 
@@ -122,7 +119,6 @@ fn joints(lines: &[Lines<'_>]) -> Vec<Joint> {
                 crease: seam.crease,
                 patches: seam.patches,
                 slit: seam.slit,
-                torn: seam.torn,
                 sides: [0.0; 2],
             });
             joint.sides[usize::from(patch == seam.patches[1])] += curve.length();
@@ -155,7 +151,7 @@ pub(super) fn summary(
     let (creases, slits): (Vec<&Joint>, _) = joints.iter().partition(|joint| !joint.slit);
     let area = sheets.iter().map(|sheet| sheet.area).sum::<f64>();
     let least = MIN_COMPARED_JOINT_SHARE * scale * area.sqrt();
-    let counts = |joint: &&Joint| !joint.torn && joint.sides[0].min(joint.sides[1]) >= least;
+    let counts = |joint: &&Joint| joint.sides[0].min(joint.sides[1]) >= least;
     let worst = joints.iter().filter(counts);
     let worst = worst.max_by(|a, b| a.mismatch().total_cmp(&b.mismatch()));
     let long = |joints: &[&Joint]| -> f64 {
@@ -192,7 +188,6 @@ pub(super) fn summary(
                 .iter()
                 .map(|sheet| sheet.seam_gap)
                 .fold(0.0, f64::max),
-        loops: sheets.iter().map(|sheet| sheet.loops).sum(),
         refolding: (sheets.iter().filter_map(|sheet| sheet.refolding))
             .map(|refolding| scale * refolding.rms)
             .reduce(f64::max),

@@ -13,19 +13,6 @@ pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
     Some(*values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
-/// Weighted median of pairs of a value and its weight: the smallest value with at least half of the total weight at or
-/// below it; `None` for an empty slice. Sorts the slice.
-pub(crate) fn weighted_median(values: &mut [(f64, f64)]) -> Option<f64> {
-    values.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let half = 0.5 * values.iter().map(|(_, weight)| weight).sum::<f64>();
-    let mut sum = 0.0;
-    let median = values.iter().find(|(_, weight)| {
-        sum += weight;
-        sum >= half
-    });
-    median.map(|(value, _)| *value)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -35,14 +22,6 @@ mod tests {
         assert_eq!(median(&mut [3.0, 1.0, 2.0]), Some(2.0));
         assert_eq!(median(&mut [4.0, 3.0, 1.0, 2.0]), Some(3.0));
         assert_eq!(median(&mut []), None);
-    }
-
-    #[test]
-    fn a_weighted_median_is_that_of_repeated_numbers() {
-        let mut repeated = [1.0, 5.0, 5.0, 5.0, 2.0, 2.0, 7.0];
-        let mut weighted = [(1.0, 1.0), (7.0, 1.0), (5.0, 3.0), (2.0, 2.0)];
-        assert_eq!(weighted_median(&mut weighted), median(&mut repeated));
-        assert_eq!(weighted_median(&mut []), None);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Sheets too small to be handled, which are left out of a pattern.
 
-use super::parts::MAX_OMITTED_SHARE;
+use super::cutting::MAX_OMITTED_SHARE;
 use super::sheets::{Missing, Sheet};
 use crate::shape::patches::Patch;
 

@@ -4,12 +4,10 @@ use nalgebra::Vector3;
 use rustc_hash::FxHashMap;
 
 use super::faces::Faces;
-use super::junction::Junction;
 use super::label_spot::label_spot;
-use super::sheet_lines::drop_empty_lines;
-use super::sheets::{Fold, Run, Seam, Sheet};
+use super::sheets::{Fold, Junction, Run, Seam, Sheet};
 use crate::math::index::NO_INDEX;
-use crate::math::planar::{Point2, orientation};
+use crate::math::planar::{Point2, orientation, polygon_area};
 use crate::scene::half_edges::{half_edge_ends, next_half_edge};
 use crate::scene::mesh::TexturedTriangle;
 use crate::shape::patches::chains::chains;
@@ -32,8 +30,10 @@ pub(super) struct FlatMesh<'a> {
     pub seams: Vec<Seam>,
     /// Number of each half-edge's seam; [`NO_INDEX`] inside of a patch and at the border.
     pub seam_of: Vec<u32>,
-    /// Distance on a sheet within which points of one vertex are the same, and lines are straight.
+    /// Distance on a sheet within which points of one vertex are the same; 0 where faces are not exact.
     pub rounding: f64,
+    /// Distance on a sheet within which a line is straight.
+    pub straightness: f64,
 }
 
 impl FlatMesh<'_> {
@@ -62,8 +62,8 @@ impl FlatMesh<'_> {
             label_spot(*patch, &own, &flat)
         };
         Sheet {
-            outlines: self.outlines(&sides, least, junction),
-            folds: self.folds(&sides),
+            outlines: self.outlines(&sides, least, &junction),
+            folds: self.folds(&sides, &junction),
             spots: patches.iter().map(spot).collect(),
             faces,
             patches,
@@ -71,7 +71,6 @@ impl FlatMesh<'_> {
             area: 0.0,
             strain: 0.0,
             seam_gap: 0.0,
-            loops: 0,
             refolding: None,
             exact: false,
         }
@@ -158,8 +157,8 @@ impl FlatMesh<'_> {
         };
         let start = (0..n).find(|i| key(*i) != key(i + n - 1)).unwrap_or(0);
         let mut order: Vec<usize> = (start..start + n).collect();
-        if start == 0 && key(0) == key(n - 1) && self.rounding > 0.0 {
-            // One exact run all around begins at a corner, if it has any.
+        if start == 0 && key(0) == key(n - 1) {
+            // One run all around begins at a corner, if it has any.
             let place = |i: usize| self.ends(line[i % n])[0];
             let turn = |i: usize| {
                 let [a, b, c] = [place(i + n - 1), place(i), place(i + 1)];
@@ -186,13 +185,13 @@ impl FlatMesh<'_> {
                 patch: seam.map(|_| self.patch(first)),
                 // A run that is a whole outline has no ends.
                 ends: [from, to].map(|v| junction(v).filter(|_| from != to)),
-                points: without_straight(&points, self.rounding),
+                points: without_straight(&points, self.straightness),
             }
         })
         .collect()
     }
 
-    fn folds(&self, sides: &[u32]) -> Vec<Fold> {
+    fn folds(&self, sides: &[u32], junction: impl Fn(u32) -> Option<Junction>) -> Vec<Fold> {
         let mut of: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
         for side in sides {
             let (seam, twin) = (self.seam_of[*side as usize], self.twins[*side as usize]);
@@ -217,9 +216,8 @@ impl FlatMesh<'_> {
                 folds.push(Fold {
                     seam: self.seams[seam as usize],
                     bend: None,
-                    // All cuts of a closed mesh are connected, so a fold ends on the outline.
-                    ends: [None; 2],
-                    points: without_straight(&points, self.rounding),
+                    ends: [line.vertices[0], line.vertices[line.vertices.len() - 1]].map(&junction),
+                    points: without_straight(&points, self.straightness),
                 });
             }
         }
@@ -260,6 +258,25 @@ impl FlatMesh<'_> {
     }
 }
 
+/// Removes the closed lines around less than a least area, except the one around the largest; `least` may differ from
+/// line to line.
+fn drop_empty_lines<T>(
+    lines: &mut Vec<T>,
+    least: impl Fn(&T) -> f64,
+    ring: impl Fn(&T) -> Vec<Point2>,
+) {
+    let areas: Vec<f64> = lines
+        .iter()
+        .map(|line| polygon_area(&ring(line)).abs())
+        .collect();
+    let largest = areas.iter().copied().fold(0.0, f64::max);
+    let mut areas = areas.into_iter();
+    lines.retain(|line| {
+        let area = areas.next();
+        area.is_some_and(|area| area >= least(line).min(largest))
+    });
+}
+
 /// Leaves out the points of a line at which it goes straight on.
 fn without_straight(points: &[Point2], tolerance: f64) -> Vec<[f64; 2]> {
     let mut line: Vec<Point2> = Vec::with_capacity(points.len());
@@ -275,4 +292,22 @@ fn without_straight(points: &[Point2], tolerance: f64) -> Vec<[f64; 2]> {
         line.push(*p);
     }
     line.iter().map(|p| [p.re, p.im]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_there_and_back_is_no_outline_and_a_small_sheet_has_one() {
+        let at = Point2::new;
+        let square = |size: f64| [at(0.0, 0.0), at(size, 0.0), at(size, size), at(0.0, size)];
+        let there_and_back = [at(1.0, 1.0), at(2.0, 1.5), at(3.0, 2.0), at(2.0, 1.5)];
+        let mut lines = vec![square(8.0), square(-2.0), there_and_back];
+        drop_empty_lines(&mut lines, |_| 1.0, |line| line.to_vec());
+        assert_eq!(lines, [square(8.0), square(-2.0)]);
+        let mut lines = vec![square(0.5)];
+        drop_empty_lines(&mut lines, |_| 1.0, |line| line.to_vec());
+        assert_eq!(lines, [square(0.5)]);
+    }
 }

@@ -1,11 +1,10 @@
 //! Patterns: a surface cut along its creases into sheets that lie flat, with as few cuts as
 //! possible.
 //!
-//! Each patch is laid flat by itself, up to the line where its neighbours' continuations meet its
-//! own ([`Sheet::outlines`] says what that line is worth). Patches are then laid beside each other
-//! where their sides of a crease fit and nothing comes to lie on anything else, the longest creases
-//! first; such a crease is a fold, every other one a cut. Around a vertex where the angles make up
-//! a full turn, all creases are folds. What cannot be laid flat without strain is cut until it can.
+//! A surface is one mesh whose creases are edges; a heightfield is made such a mesh first. What cannot be laid flat without strain
+//! is cut until it can. Then parts are laid beside each other where their sides fit and nothing comes to lie on anything else, the
+//! longest seams first; such a seam is a fold if it is a crease, every other one a cut. Around a vertex where the angles make up
+//! a full turn, all creases are folds.
 //!
 //! ```
 //! use developable::patches::{PatchOptions, Patches};
@@ -24,47 +23,25 @@
 //! # }
 //! ```
 
-mod assembly;
-mod check;
-mod coarse;
 mod crumbs;
-mod cut;
+mod cutting;
 mod exact;
 mod faces;
-mod fault;
-mod fine;
 mod flat_mesh;
-mod flat_patch;
-mod heightfield;
-mod junction;
 mod label_spot;
-mod labels;
-mod layout;
-mod line;
-mod mesh;
 mod motion;
 mod options;
-mod outline;
-mod outline_loops;
-mod parts;
-mod refold;
-mod seam_graph;
-mod sew;
-mod sheet_lines;
 mod sheets;
-mod transfer;
-mod trim;
-mod window;
+mod surface;
+mod surface_mesh;
 
 pub use exact::{
     FoundFaces, MeshKind, NetOptions, SheetMetal, noisy_faces, pattern_exact, rolled_faces,
     sheet_metal,
 };
 pub use faces::Faces;
-pub use heightfield::pattern;
-pub use junction::Junction;
-pub(crate) use line::simplify_polyline;
-pub use mesh::{MeshPattern, pattern_mesh};
 pub use options::PatternOptions;
-pub(crate) use outline_loops::remove_loops;
-pub use sheets::{Bend, Direction, Fold, Missing, Pattern, Refolding, Run, Seam, Sheet, Spot};
+pub use sheets::{
+    Bend, Direction, Fold, Junction, Missing, Pattern, Refolding, Run, Seam, Sheet, Spot,
+};
+pub use surface::{pattern, pattern_mesh};

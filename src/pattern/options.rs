@@ -25,7 +25,7 @@ const RELATIVE_TOLERANCE: f64 = 1e-4;
 #[non_exhaustive]
 pub struct PatternOptions {
     /// Maximum seam gap of a fold: root mean square distance between its two sides on the flat sheet, as a share of
-    /// the fold's length. A quarter of the lattice's spacing is always allowed. Default 0.005.
+    /// the fold's length. A quarter of the mean edge length of the mesh that is cut is always allowed. Default 0.005.
     pub max_seam_gap: f64,
     /// Maximum strain of a sheet, root mean square over its area. Default 0.01.
     pub max_strain: f64,

@@ -1,18 +1,20 @@
 //! The types of a pattern: sheets, their outlines and folds.
 
 use super::faces::Faces;
-use super::junction::Junction;
-use crate::shape::patches::Patches;
+use crate::shape::patches::{Crease, Patch};
 
-/// A heightfield cut into flat sheets.
+/// A surface cut into flat sheets.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Pattern {
-    /// The flat sheets; the first is the one with the largest patch.
+    /// The flat sheets; the first is the one with the largest patch. Those of a heightfield are seen from above, those of a mesh
+    /// from outside, the side that its triangles face.
     pub sheets: Vec<Sheet>,
-    /// The patches of the sheets and the creases between them. A patch that was cut is replaced by the parts it was cut
-    /// into, and its cuts are among the creases.
-    pub patches: Patches,
+    /// The patches of the sheets, the largest area first: the connected components of the patches that were given, or the parts
+    /// that these were cut into.
+    pub patches: Vec<Patch>,
+    /// The creases between the patches, with the cuts inside of patches among them.
+    pub creases: Vec<Crease>,
     /// Vertices, area and steps of the surface that are on no sheet.
     pub missing: Missing,
 }
@@ -47,9 +49,9 @@ pub struct Sheet {
     /// Outlines of the sheet: closed lines, the longest first, each divided into runs that begin where the run
     /// before ends. The sheet is to the left, so outlines of holes run clockwise.
     ///
-    /// Along a crease the outline is the intersection of the two extrapolated patches, smoothed over one or two
-    /// spacings. Both sides of a cut have the same length except for strain, and
-    /// [`Drawing`](crate::drawing::Drawing) draws them equally long. Along the surface's border the outline
+    /// Along a crease of a heightfield the outline is the line in which the continuations of both patches meet, smoothed over one or
+    /// two spacings. Both sides of a cut have the same length except for strain, and
+    /// [`Drawing`](crate::drawing::Drawing) draws them equally long. Along the border of a heightfield the outline
     /// connects the midpoints of the lattice's border edges.
     pub outlines: Vec<Vec<Run>>,
     /// Lines along which the sheet is folded, in the order of their creases' numbers.
@@ -58,17 +60,14 @@ pub struct Sheet {
     pub spots: Vec<Spot>,
     /// Triangles of the sheet, with their positions on the surface and in the plane.
     pub faces: Faces,
-    /// Spacing of the lattice, or mean edge length of the mesh: the resolution of the sheet's outlines and folds.
+    /// Mean edge length of the mesh that was cut: the resolution of the sheet's outlines and folds.
     pub spacing: f64,
     /// Area of the surface that the sheet covers, in the surface's units squared.
     pub area: f64,
     /// Strain of the sheet, root mean square over its area; 0 for a sheet that is exactly developable.
     pub strain: f64,
-    /// Largest seam gap of a fold: root mean square distance between its two sides along the fold. The drawn fold
-    /// lies halfway between the sides.
+    /// Largest seam gap of a fold: root mean square distance between its two sides before they were joined.
     pub seam_gap: f64,
-    /// Number of small loops that were cut off where the sheet's outlines crossed themselves.
-    pub loops: usize,
     /// Distance of the refolded sheet from the surface; `None` unless
     /// [`PatternOptions::refold`](super::PatternOptions::refold) is set.
     pub refolding: Option<Refolding>,
@@ -144,11 +143,29 @@ pub struct Bend {
     pub is_middle: bool,
 }
 
+/// A point inside of the surface where cuts or folds end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Junction {
+    /// Number of the point, which is the same on all sheets.
+    pub number: usize,
+    /// Position of the point on the surface, in the surface's units.
+    pub place: [f64; 3],
+    /// Sum of the angles of the surface around the point, in radians: 2π where the surface could be laid flat in
+    /// one piece, less at the tip of a cone, more at a saddle.
+    pub angle: f64,
+    /// Outer radius of the ring in which the angle was measured, as distance along the surface in its units; the inner
+    /// radius is half of it.
+    pub reach: f64,
+    /// Number of cuts that end at the point, counted twice if both ends do.
+    pub cuts: usize,
+}
+
 /// A crease or cut on the border of a sheet or within it: the patches on either side, the fold angle and the kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Seam {
-    /// The crease that the seam follows, by its index in the [`Patches::creases`] of [`Pattern::patches`].
+    /// The crease that the seam follows, by its index in [`Pattern::creases`].
     pub crease: usize,
     /// Numbers of the patches on either side of the seam, the lower one first.
     pub patches: [u32; 2],
@@ -159,9 +176,6 @@ pub struct Seam {
     /// Whether this is a cut inside of a patch that cannot be laid flat in one piece, and not a crease of the
     /// surface.
     pub slit: bool,
-    /// Whether the surface has a step (a jump in height) along the seam: the two sides are apart in space and are not
-    /// glued together.
-    pub torn: bool,
 }
 
 /// The direction in which a sheet is folded, seen from above.

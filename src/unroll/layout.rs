@@ -80,7 +80,7 @@ pub fn unroll(surface: &Heightfield, options: &UnrollOptions) -> Result<Unrollin
 }
 
 /// Returns the positions of a mesh's vertices in the view from above, in units of a given length.
-pub(crate) fn plan(mesh: &Triangulation, unit: f64) -> Vec<Point> {
+fn plan(mesh: &Triangulation, unit: f64) -> Vec<Point> {
     let all = mesh.positions().iter();
     all.map(|[x, y, _]| Point::new(*x, *y) / unit).collect()
 }

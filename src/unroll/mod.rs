@@ -43,7 +43,6 @@ mod unflip;
 mod unrolling;
 
 pub use distortion::Distortion;
-pub(crate) use layout::plan;
 pub use layout::unroll;
 pub use options::UnrollOptions;
 pub(crate) use unflip::border;

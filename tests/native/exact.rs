@@ -7,10 +7,10 @@ use crate::math::planar::distance_to_segment;
 use crate::native::common::Random;
 use developable::drawing::{Bending, Drawing, DrawingOptions, Label, LabelKind};
 use developable::files::drawings::{PdfOptions, TextureFile, write_dxf, write_pdf, write_svg};
-use developable::pattern::{MeshKind, MeshPattern, NetOptions, Sheet, pattern_exact, sheet_metal};
+use developable::pattern::{MeshKind, NetOptions, Pattern, Sheet, pattern_exact, sheet_metal};
 use developable::{Exactness, Lambda, Mesh, MeshOptions, StopReason, fit_mesh};
 
-fn seam_length(pattern: &MeshPattern) -> f64 {
+fn seam_length(pattern: &Pattern) -> f64 {
     Drawing::new(&pattern.sheets, &DrawingOptions::default())
         .unwrap()
         .summary
@@ -673,7 +673,7 @@ fn a_person_decides_which_edges_are_cut_and_which_are_folds() {
         [0.0, 50.0, 0.0],
         [0.0, 0.0, 60.0],
     ]);
-    let pairs = |pattern: &MeshPattern, is_fold: bool| {
+    let pairs = |pattern: &Pattern, is_fold: bool| {
         let folds = pattern.sheets.iter().flat_map(|sheet| &sheet.folds);
         let mut folded: Vec<[u32; 2]> = folds.map(|fold| fold.seam.patches).collect();
         folded.sort_unstable();

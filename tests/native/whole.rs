@@ -8,7 +8,7 @@ use developable::analysis::MeshCurvatures;
 use developable::drawing::{Drawing, DrawingOptions, Totals};
 use developable::files::assembly::write_assembly_svg;
 use developable::patches::{MeshPatches, PatchOptions};
-use developable::pattern::{MeshPattern, PatternOptions, Sheet, pattern_mesh};
+use developable::pattern::{Pattern, PatternOptions, Sheet, pattern_mesh};
 use developable::rulings::{Ruling, Rulings, TraceOptions};
 
 /// The triangles of a map from the unit square, corners at one place being one vertex, and those without an
@@ -72,7 +72,7 @@ fn tube(around: usize) -> Mesh {
     )
 }
 
-fn pattern_of(mesh: &Mesh) -> (MeshPatches, MeshPattern) {
+fn pattern_of(mesh: &Mesh) -> (MeshPatches, Pattern) {
     let patches = MeshPatches::new(mesh, &PatchOptions::default()).unwrap();
     let pattern = pattern_mesh(mesh, &patches, &PatternOptions::default()).unwrap();
     (patches, pattern)

@@ -17,7 +17,7 @@ mod search;
 mod sheets;
 mod straight;
 
-use super::mesh::MeshPattern;
+use super::sheets::Pattern;
 use crate::error::{Error, Result};
 use crate::scene::mesh::Mesh;
 use crate::scene::polyhedron::Polyhedron;
@@ -51,7 +51,7 @@ pub struct NetOptions {
 /// # Errors
 /// [`Error::Unsupported`](crate::Error::Unsupported) if the triangles have no area, for a pair of patches without a common
 /// edge, and for edges that cannot all be folds.
-pub fn pattern_exact(mesh: &Mesh, options: &NetOptions) -> Result<MeshPattern> {
+pub fn pattern_exact(mesh: &Mesh, options: &NetOptions) -> Result<Pattern> {
     pattern_of(&Polyhedron::new(mesh)?, options)
 }
 
@@ -69,12 +69,12 @@ impl FoundFaces {
     ///
     /// # Errors
     /// The errors of [`pattern_exact`].
-    pub fn pattern(&self, options: &NetOptions) -> Result<MeshPattern> {
+    pub fn pattern(&self, options: &NetOptions) -> Result<Pattern> {
         pattern_of(&self.solid, options)
     }
 }
 
-fn pattern_of(solid: &Polyhedron, options: &NetOptions) -> Result<MeshPattern> {
+fn pattern_of(solid: &Polyhedron, options: &NetOptions) -> Result<Pattern> {
     let mut choices = EdgeChoices::default();
     if !(options.cut.is_empty() && options.join.is_empty()) {
         let net = Net::new(solid, options.room, EdgeChoices::default())?;

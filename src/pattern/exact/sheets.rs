@@ -9,13 +9,13 @@ use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::math::union_find::UnionFind;
 use crate::pattern::flat_mesh::FlatMesh;
-use crate::pattern::{Direction, MeshPattern, Missing, Seam, Sheet};
+use crate::pattern::{Direction, Missing, Pattern, Seam, Sheet};
 use crate::scene::half_edges::half_edge_ends;
 use crate::scene::polyhedron::Polyhedron;
 use crate::shape::patches::chains::chains;
 use crate::shape::patches::{Crease, Patch};
 
-pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Result<MeshPattern> {
+pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Result<Pattern> {
     let mut flat = FlatMesh {
         places: &solid.places,
         triangles: &solid.triangles,
@@ -33,6 +33,7 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
         seams: Vec::new(),
         seam_of: vec![NO_INDEX; solid.twins.len()],
         rounding: solid.rounding,
+        straightness: solid.rounding,
     };
     let creases = find_creases(solid, &mut flat)?;
     let edges = solid.twins.len() as f64;
@@ -78,7 +79,7 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
         vertices,
         area: *area,
     };
-    Ok(MeshPattern {
+    Ok(Pattern {
         sheets,
         patches: counted.into_iter().zip(&patches.areas).map(patch).collect(),
         creases,
@@ -153,7 +154,6 @@ fn find_creases(solid: &Polyhedron, flat: &mut FlatMesh) -> Result<Vec<Crease>> 
             direction: Direction::from_ridge(signed >= 0.0),
             angle: fold,
             slit: false,
-            torn: false,
         });
     }
     Ok(creases)

@@ -77,6 +77,38 @@ impl BendAngles {
         labels: &[u32],
         ends: [usize; 2],
     ) -> Option<f64> {
+        let [a, b] = self.beside(lattice, labels, ends)?.map(|i| self.normal(i));
+        let dot: f64 = (0..3).map(|k| a[k] * b[k]).sum();
+        Some(dot.clamp(-1.0, 1.0).acos())
+    }
+
+    /// Computes by how far the surfaces on both sides of an edge differ, as an angle in radians: the fold angle or, at a step, the
+    /// larger angle between the line that joins both sides and their tangent planes.
+    pub(super) fn difference(
+        &self,
+        surface: &Heightfield,
+        labels: &[u32],
+        ends: [usize; 2],
+    ) -> Option<f64> {
+        let lattice = surface.lattice();
+        let places = self.beside(lattice, labels, ends)?;
+        let [p, q] = places.map(|i| {
+            let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
+            [x, y, surface.heights()[i]]
+        });
+        let line = [0, 1, 2].map(|k| q[k] - p[k]);
+        let length = line.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let angles = places.map(|i| {
+            let normal = self.normal(i);
+            let away: f64 = (0..3).map(|k| normal[k] * line[k]).sum();
+            (away.abs() / length).min(1.0).asin()
+        });
+        let fold = self.fold_angle(lattice, labels, ends)?;
+        Some(angles.into_iter().fold(fold, f64::max))
+    }
+
+    /// Vertices some steps away from an edge on either side, or as far as the patches reach; `None` if one has no normal.
+    fn beside(&self, lattice: &Lattice, labels: &[u32], ends: [usize; 2]) -> Option<[usize; 2]> {
         let cols = lattice.cols();
         let step = |i: usize, towards: usize| {
             let (r, c) =
@@ -85,7 +117,7 @@ impl BendAngles {
             inside.then(|| lattice.index(r as usize, c as usize))
         };
         let towards = (0..6).find(|towards| step(ends[0], *towards) == Some(ends[1]))?;
-        let normal = |from: usize, away: usize| {
+        let walk = |from: usize, away: usize| {
             let mut place = from;
             for _ in 0..NORMAL_DISTANCE_VERTICES {
                 match step(place, away) {
@@ -95,17 +127,17 @@ impl BendAngles {
                     _ => break,
                 }
             }
-            let [x, y] = self.gradient[place];
-            (!x.is_nan()).then(|| {
-                let length = (1.0 + x * x + y * y).sqrt();
-                [-x / length, -y / length, 1.0 / length]
-            })
+            (!self.gradient[place][0].is_nan()).then_some(place)
         };
-        let (a, b) = (
-            normal(ends[0], OPPOSITE_DIRECTION[towards])?,
-            normal(ends[1], towards)?,
-        );
-        let dot: f64 = (0..3).map(|k| a[k] * b[k]).sum();
-        Some(dot.clamp(-1.0, 1.0).acos())
+        Some([
+            walk(ends[0], OPPOSITE_DIRECTION[towards])?,
+            walk(ends[1], towards)?,
+        ])
+    }
+
+    fn normal(&self, vertex: usize) -> [f64; 3] {
+        let [x, y] = self.gradient[vertex];
+        let length = (1.0 + x * x + y * y).sqrt();
+        [-x / length, -y / length, 1.0 / length]
     }
 }

@@ -12,9 +12,13 @@ use crate::math::least_squares::LeastSquares;
 /// extrapolated height there. `benches/patterns.md` has what others give.
 const EXTRAPOLATION_RADIUS: usize = 3;
 
-/// Maximum distance of a vertex from the extrapolation of its own patch, in lattice spacings, at which it stays in that
+/// Maximum distance of a vertex at the border from the extrapolation of its own patch, in lattice spacings, at which it stays in that
 /// patch.
 const MAX_OWN_DISTANCE: f64 = 0.02;
+
+/// Maximum distance of a vertex inside of the surface from the extrapolation of its own patch, in lattice spacings, at which it stays in
+/// that patch: a fitted surface is round at its creases, but not by that much. `benches/patterns.md` has what others give.
+const MAX_INNER_OWN_DISTANCE: f64 = 0.5;
 
 /// Maximum number of passes in which vertices at the surface's border are reassigned to neighbouring patches.
 const MAX_REASSIGNMENT_PASSES: usize = 4;
@@ -23,9 +27,9 @@ const MAX_REASSIGNMENT_PASSES: usize = 4;
 /// extrapolation, over its distance from the extrapolation of its own patch.
 const MAX_OTHER_DISTANCE_SHARE: f64 = 0.5;
 
-/// Reassigns vertices at the border of the surface to the neighbouring patch whose extrapolation they lie nearest to.
+/// Reassigns vertices at the border of the surface, and at steps, to the neighbouring patch whose extrapolation they lie nearest to.
 /// Bend angles, by which regions grow, are missing at the border, so that creases would end a cell or two beside
-/// their place.
+/// their place, and are large on both sides of a step.
 pub(super) fn reassign_border_vertices(
     surface: &Heightfield,
     bend: &BendAngles,
@@ -36,7 +40,7 @@ pub(super) fn reassign_border_vertices(
         |i: usize| bend.angle[i].is_nan() || lattice.around(i).any(|k| bend.angle[k].is_nan());
     for _ in 0..MAX_REASSIGNMENT_PASSES {
         let mut moves = Vec::new();
-        for i in (0..labels.len()).filter(|i| labels[*i] != NO_PATCH && at_border(*i)) {
+        for i in (0..labels.len()).filter(|i| labels[*i] != NO_PATCH) {
             let mut others: Vec<u32> = lattice
                 .around(i)
                 .map(|k| labels[k])
@@ -53,7 +57,11 @@ pub(super) fn reassign_border_vertices(
                 if away.is_nan() { f64::INFINITY } else { away }
             };
             let own = distance(labels[i]);
-            if own <= MAX_OWN_DISTANCE * lattice.spacing() {
+            let most = match at_border(i) {
+                true => MAX_OWN_DISTANCE,
+                false => MAX_INNER_OWN_DISTANCE,
+            };
+            if own <= most * lattice.spacing() {
                 continue;
             }
             let nearest = others.into_iter().map(|patch| (distance(patch), patch));

@@ -47,7 +47,7 @@ impl Patches {
         let mut labels = segment(surface, &bend, high)?;
         let valid = labels.iter().filter(|label| **label != NO_PATCH).count();
         let min_vertices = options.smallest * valid as f64;
-        merge_patches(surface.lattice(), &bend, fold, min_vertices, &mut labels);
+        merge_patches(surface, &bend, fold, min_vertices, &mut labels);
         reassign_border_vertices(surface, &bend, &mut labels);
         let mesh = Triangulation::new(surface, &Frame::default())?;
         let (patches, _) = number_by_area(&mesh, &mut labels)?;
@@ -59,38 +59,6 @@ impl Patches {
             creases,
             bend: high,
         })
-    }
-
-    /// Divides the heightfield anew, by a given patch number of each vertex, and numbers the patches by area. Returns
-    /// the patches and the former number of each patch.
-    ///
-    /// # Errors
-    /// Those of [`Patches::new`].
-    pub(crate) fn divided(
-        &self,
-        surface: &Heightfield,
-        mut labels: Vec<u32>,
-    ) -> Result<(Self, Vec<usize>)> {
-        let bend = BendAngles::new(surface)?;
-        let mesh = Triangulation::new(surface, &Frame::default())?;
-        let (patches, order) = number_by_area(&mesh, &mut labels)?;
-        let creases = creases(surface, &mesh, &bend, &labels);
-        let divided = Patches {
-            lattice: *surface.lattice(),
-            labels,
-            patches,
-            creases,
-            bend: self.bend,
-        };
-        Ok((divided, order))
-    }
-
-    /// Computes the area of a heightfield's surface, in the surface's units squared.
-    pub(crate) fn area(surface: &Heightfield) -> Result<f64> {
-        let mesh = Triangulation::new(surface, &Frame::default())?;
-        let mut labels = vec![0; surface.heights().len()];
-        let (patches, _) = number_by_area(&mesh, &mut labels)?;
-        Ok(patches.iter().map(|patch| patch.area).sum())
     }
 
     /// Returns the number of the patch of each vertex, row by row; [`NO_PATCH`] where there is no patch.

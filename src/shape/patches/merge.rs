@@ -1,14 +1,15 @@
 //! Merges patches across borders that are no creases.
 //!
 //! A surface that was fitted to noise bends along few of its rulings and hardly in between, so
-//! that it is segmented where there is no crease. A crease has a fold angle between the patches on either side.
+//! that it is segmented where there is no crease. A crease has a fold angle between the patches on either side, or a step.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
 use super::bend_angles::{BendAngles, NORMAL_DISTANCE_VERTICES};
 use super::patch::NO_PATCH;
-use crate::lattice::hexagonal::{Lattice, Towards};
+use crate::heights::heightfield::Heightfield;
+use crate::lattice::hexagonal::Towards;
 
 /// Minimum ratio of a crease's fold angle to the angle by which the flatter of the two patches bends over the same
 /// distance. Limits what is taken for a crease on surfaces that bend. Not tuned by measurements; `tests/native/patches.rs` has
@@ -19,7 +20,7 @@ const MIN_FOLD_PER_BEND: f64 = 2.0;
 /// bend, the flattest border first, until there is none; then merges each patch of fewer than `min_vertices` with the
 /// neighbour across its flattest border. Numbers the patches from 0 again.
 pub(super) fn merge_patches(
-    lattice: &Lattice,
+    surface: &Heightfield,
     bend: &BendAngles,
     fold: f64,
     min_vertices: f64,
@@ -27,14 +28,14 @@ pub(super) fn merge_patches(
 ) {
     // Angles are measured again after patches have been merged, for then normals can be further from the border.
     loop {
-        let mut graph = AdjacencyGraph::new(lattice, bend, fold, labels);
+        let mut graph = AdjacencyGraph::new(surface, bend, fold, labels);
         let merged = graph.merge_flat();
         graph.relabel(labels);
         if !merged {
             break;
         }
     }
-    let mut graph = AdjacencyGraph::new(lattice, bend, fold, labels);
+    let mut graph = AdjacencyGraph::new(surface, bend, fold, labels);
     graph.merge_small(min_vertices);
     graph.relabel(labels);
     let mut numbers = BTreeMap::new();
@@ -63,7 +64,8 @@ struct AdjacencyGraph {
 
 impl AdjacencyGraph {
     /// Builds the region adjacency graph of a segmentation.
-    fn new(lattice: &Lattice, bend: &BendAngles, fold: f64, labels: &[u32]) -> Self {
+    fn new(surface: &Heightfield, bend: &BendAngles, fold: f64, labels: &[u32]) -> Self {
+        let lattice = surface.lattice();
         let patches = labels.iter().filter(|label| **label != NO_PATCH);
         let count = patches.max().map_or(0, |label| *label as usize + 1);
         let mut graph = AdjacencyGraph {
@@ -92,7 +94,7 @@ impl AdjacencyGraph {
                     continue;
                 }
                 // Patches whose fold angle cannot be measured are not merged.
-                if let Some(angle) = bend.fold_angle(lattice, labels, [i, k]) {
+                if let Some(angle) = bend.difference(surface, labels, [i, k]) {
                     for (one, other) in [(a, b), (b, a)] {
                         let sums = graph.neighbours[one as usize].entry(other).or_default();
                         *sums = (sums.0 + angle, sums.1 + 1.0);

@@ -14,7 +14,7 @@ use developable::files::assembly::{write_animation, write_assembly_svg};
 use developable::files::drawings::{PdfOptions, TextureFile, write_dxf, write_pdf, write_svg};
 use developable::patches::{Crease, MeshPatches, Patch, PatchOptions, Patches};
 use developable::pattern::{
-    MeshKind, MeshPattern, Missing, NetOptions, PatternOptions, Sheet, pattern, pattern_exact,
+    MeshKind, Missing, NetOptions, Pattern, PatternOptions, Sheet, pattern, pattern_exact,
     pattern_mesh, sheet_metal,
 };
 use developable::progress;
@@ -381,7 +381,7 @@ pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     })?)
 }
 
-fn sheets_of(mesh: &Mesh, wanted: &Wanted) -> Result<(MeshPatches, MeshPattern)> {
+fn sheets_of(mesh: &Mesh, wanted: &Wanted) -> Result<(MeshPatches, Pattern)> {
     let patches = progress::part(0.1, || MeshPatches::new(mesh, &wanted.patches))?;
     let found = progress::part(0.95, || pattern_mesh(mesh, &patches, &wanted.sheets))?;
     Ok((patches, found))

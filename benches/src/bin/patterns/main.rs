@@ -108,7 +108,7 @@ fn heightfield_row(name: &str, surface: &Heightfield) -> Outcome<()> {
     match found {
         Ok(found) => {
             let size = surface.lattice().cols() as f64 * surface.lattice().spacing();
-            let parts = found.patches.patches().len();
+            let parts = found.patches.len();
             row(
                 name,
                 [vertices, patches.patches().len(), parts],

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::body::Body;
+use super::body::{Body, Place};
 use crate::math::index::NO_INDEX;
-use crate::scene::half_edges::{half_edge_ends, twin_half_edges};
+use crate::scene::half_edges::{half_edge_ends, next_half_edge, twin_half_edges};
 use crate::shape::patches::chains::chains;
 
 /// A seam: a line of edges of a mesh along which two parts meet.
@@ -35,8 +35,8 @@ pub(super) struct Seams {
 impl Seams {
     /// Finds the seams of a mesh. A line of edges between two parts is divided into two seams where its fold angle
     /// passes `bend`, in radians, so that a cut that follows a crease along a part of its length is a seam of its own
-    /// there.
-    pub(super) fn new(body: &Body, bend: f64) -> Seams {
+    /// there. Fold angles are those between the normals at a distance of `crease_width` from the line.
+    pub(super) fn new(body: &Body, bend: f64, crease_width: f64) -> Seams {
         let twins = twin_half_edges(&body.triangles);
         let mut between: BTreeMap<[u32; 2], Vec<[u32; 2]>> = BTreeMap::new();
         for (side, twin) in (0u32..).zip(&twins).filter(|(_, twin)| **twin != NO_INDEX) {
@@ -58,7 +58,14 @@ impl Seams {
                 .collect();
             for chain in chains(&edges, |vertex| pointed[vertex as usize]) {
                 let sides: Vec<[u32; 2]> = chain.edges.iter().map(|edge| pairs[*edge]).collect();
-                let folds: Vec<(f64, f64)> = sides.iter().map(|pair| fold(body, *pair)).collect();
+                let width = match is_one(body, sides[0]) {
+                    true => 0.0,
+                    false => crease_width,
+                };
+                let folds = sides
+                    .iter()
+                    .map(|pair| fold(body, &seams.twins, *pair, width));
+                let folds: Vec<(f64, f64)> = folds.collect();
                 // Between different patches a smaller angle suffices for a crease.
                 let bend = match is_one(body, sides[0]) {
                     true => bend,
@@ -211,23 +218,73 @@ fn mean(folds: &[(f64, f64)]) -> f64 {
     if long > 0.0 { bent / long } else { 0.0 }
 }
 
-/// Computes the length of an edge and the angle between its two triangles, in radians; positive for a ridge.
-fn fold(body: &Body, [one, other]: [u32; 2]) -> (f64, f64) {
-    let normal = |side: u32| {
-        let [a, b, c] = body.triangles[side as usize / 3].map(|v| body.places[v as usize]);
-        (b - a).cross(&(c - a))
-    };
+/// Computes the length of an edge and the angle between the surfaces on both sides, in radians, at a distance from the edge; positive
+/// for a ridge.
+fn fold(body: &Body, twins: &[u32], [one, other]: [u32; 2], away: f64) -> (f64, f64) {
     let [a, b] = half_edge_ends(&body.triangles, one).map(|v| body.places[v as usize]);
-    let (m, n, along) = (normal(one), normal(other), b - a);
-    let cross = m.cross(&n);
+    let [m, n] = [one, other].map(|side| normal_away(body, twins, side, away));
+    let (along, cross) = (b - a, m.cross(&n));
     let angle = cross.norm().atan2(m.dot(&n));
     (along.norm(), angle.copysign(cross.dot(&along)))
+}
+
+/// Normal of the surface at a distance from an edge, along the straight line that leaves the edge at a right angle, or where that
+/// line leaves the patch.
+fn normal_away(body: &Body, twins: &[u32], mut side: u32, mut away: f64) -> Place {
+    let ends = |side: u32| half_edge_ends(&body.triangles, side).map(|v| body.places[v as usize]);
+    let normal = |side: u32| {
+        let [a, b, c] = body.triangles[side as usize / 3].map(|v| body.places[v as usize]);
+        let normal: Place = (b - a).cross(&(c - a));
+        normal / normal.norm().max(f64::MIN_POSITIVE)
+    };
+    let [a, b] = ends(side);
+    let mut at = (a + b) / 2.0;
+    let mut up = normal(side);
+    let mut way = up.cross(&(b - a)).normalize();
+    // A straight line crosses few triangles for each length of an edge.
+    let most = 8 + 4 * (away / body.spacing).ceil() as usize;
+    for _ in 0..most {
+        let next = next_half_edge(side);
+        let exits = [next, next_half_edge(next)].map(|exit| {
+            let [a, b] = ends(exit);
+            let inwards = up.cross(&(b - a));
+            let speed = -inwards.dot(&way);
+            let far = inwards.dot(&(at - a)) / speed;
+            (
+                if speed > 0.0 {
+                    far.max(0.0)
+                } else {
+                    f64::INFINITY
+                },
+                exit,
+            )
+        });
+        let (far, exit) = if exits[0].0 <= exits[1].0 {
+            exits[0]
+        } else {
+            exits[1]
+        };
+        let twin = twins[exit as usize];
+        let is_same =
+            |twin: u32| body.patches[twin as usize / 3] == body.patches[side as usize / 3];
+        if far >= away || twin == NO_INDEX || !is_same(twin) {
+            break;
+        }
+        (at, away) = (at + way * far, away - far);
+        // Go straight on over the edge.
+        let [a, b] = ends(exit);
+        let along = (b - a).normalize();
+        let (level, across) = (along.dot(&way), -up.cross(&along).dot(&way));
+        up = normal(twin);
+        way = along * level - up.cross(&along) * across;
+        side = twin;
+    }
+    up
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::mesh::body::Place;
 
     #[test]
     fn what_was_divided_is_put_together_where_it_is_alike() {
@@ -239,7 +296,7 @@ mod tests {
             .collect();
         let strips = (0..triangles.len() as u32).map(|t| t / 16).collect();
         let body = Body::new(places.collect(), triangles, strips).unwrap();
-        let mut seams = Seams::new(&body, 0.3);
+        let mut seams = Seams::new(&body, 0.3, 0.0);
         let before = seams.all[0].sides.clone();
         assert_eq!((seams.all.len(), before.len()), (1, 8));
         assert_eq!(seams.divide(&body, 0, 5), 1);

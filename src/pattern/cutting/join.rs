@@ -2,15 +2,17 @@
 
 use super::body::Body;
 use super::lay::{FlatPart, Lying};
+use super::reach::reach_into_each_other;
 use super::seams::Seams;
 use crate::error::Result;
 use crate::pattern::motion::Motion;
-use crate::pattern::outline::reach_into_each_other;
-use crate::pattern::seam_graph::NEGLIGIBLE_GAP_LENGTHS;
 use crate::progress;
 use crate::scene::half_edges::next_half_edge;
 use crate::unroll::arap_mesh::StoppingCriteria;
 use crate::unroll::flat_triangle::Point;
+
+/// Seam gap below which a seam counts as closed, because it is finer than the mesh's resolution; in edge lengths of the mesh.
+pub(super) const NEGLIGIBLE_GAP_LENGTHS: f64 = 0.25;
 
 /// Limits that a flat sheet of a mesh has to keep: seam gap, strain, and when the solver stops.
 #[derive(Debug, Clone, Copy)]

@@ -1,90 +1,27 @@
-//! Patterns of meshes as they are, without a view.
-//!
-//! The method is that of heightfields, on triangles only: parts with too much strain are cut in two, here by
-//! planes, and the parts are joined again as far as their sides fit, and cuts are closed again. Creases are edges of the mesh, so no patch has
-//! to be extrapolated beyond them.
-
-mod body;
-mod close;
-mod draw;
-mod join;
-mod junction;
-mod lay;
-mod seams;
+//! The parts that a mesh is cut into, each of which lies flat by itself.
 
 use std::collections::BTreeMap;
 
-use rustc_hash::FxHashSet;
-
-use super::options::PatternOptions;
-use super::parts::MAX_OMITTED_SHARE;
-use super::sheets::Missing;
-use crate::error::{Error, Result, check_count, positive, rounded};
-use crate::fit::mesh::topology::Topology;
+use super::body::{Body, Plane};
+use super::join::Limits;
+use super::lay::FlatPart;
+use crate::error::{Error, Result, rounded};
+use crate::pattern::sheets::Missing;
 use crate::progress;
-use crate::scene::mesh::Mesh;
-use crate::shape::patches::MeshPatches;
-use body::{Body, Place, Plane};
-pub use draw::MeshPattern;
-use draw::draw_sheets;
-use join::{Limits, join_parts};
-use lay::FlatPart;
-use seams::Seams;
+use rustc_hash::FxHashSet;
 
 /// Maximum number of parts of a mesh: a pattern of more parts cannot be assembled in practice.
 const MAX_PARTS: u32 = 500;
 
-/// Cuts a mesh into flat sheets; the first is the one with the largest patch. The mesh may be closed, overhanging
-/// or of several components.
-///
-/// Every sheet has a simple outline and has a strain of at most [`PatternOptions::max_strain`]. A patch with a
-/// larger strain is cut in two, repeatedly, by the plane normal to one of its principal axes whose cut is shortest for the strain
-/// that it takes away. Then parts are joined along the seams whose sides fit, the longest first, so that a tube gets one slit; a seam
-/// that fits along a part of its length is a fold there and a cut elsewhere. Last, cuts are closed again, whole or in part, where
-/// strain and outlines stay valid.
-/// Both sides of a cut have the same length on the mesh, and on the sheets except for strain.
-/// [`PatternOptions::refold`] is for heightfields only.
-///
-/// Costs an unrolling of each patch, a dozen short ones for each cut and one or two for each seam.
-///
-/// # Errors
-/// [`Error::Shape`](crate::Error::Shape) if the patches belong to another mesh,
-/// [`Error::Option`](crate::Error::Option) for a seam gap or a strain that is not positive and finite,
-/// [`Error::Topology`](crate::Error::Topology) for a mesh that is not a surface,
-/// [`Error::NotFlat`](crate::Error::NotFlat) if a tenth of the area does not lie flat in 500 parts.
-pub fn pattern_mesh(
-    mesh: &Mesh,
-    patches: &MeshPatches,
-    options: &PatternOptions,
-) -> Result<MeshPattern> {
-    check_count(
-        "patches of the mesh",
-        mesh.triangles().len(),
-        1,
-        patches.labels().len(),
-    )?;
-    let gap = positive("maxSeamGap", options.max_seam_gap)?;
-    let strain = positive("maxStrain", options.max_strain)?;
-    positive("tolerance", options.unrolling.tolerance)?;
-    let until = options.relaxation();
-    let limits = Limits { gap, strain, until };
-    let topology = Topology::new(mesh)?;
-    let place = |vertex: &u32| Place::from(mesh.positions()[*vertex as usize]);
-    let labels = topology.from.iter().map(|t| patches.labels()[*t as usize]);
-    let body = Body::new(
-        topology.source.iter().map(place).collect(),
-        topology.triangles.clone(),
-        labels.collect(),
-    )?;
-    let (body, parts, missing) = progress::part(0.6, || flat_parts(body, limits))?;
-    let seams = Seams::new(&body, patches.bend());
-    let (seams, sheets) = progress::part(0.95, || join_parts(&body, seams, parts, limits))?;
-    draw_sheets(&body, &seams, &sheets, missing)
-}
+/// Minimum number of vertices of a part that may be cut into smaller parts. `benches/patterns.md` has what others give.
+const MIN_CUT_VERTICES: usize = 24;
+
+/// Maximum share of a surface's area that may be left out of its pattern: with more it is no pattern of the surface.
+pub(in crate::pattern) const MAX_OMITTED_SHARE: f64 = 0.1;
 
 /// Cuts the parts of a mesh until each lies flat within the strain limit, and leaves out those that do not and cannot be cut
 /// further. Returns the parts by area, the largest first, and what is left out.
-fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>, Missing)> {
+pub(super) fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>, Missing)> {
     // Parts that lie flat, each with its triangles at that time: later cuts of neighbours divide some of them.
     let mut flat: BTreeMap<u32, FlatPart> = BTreeMap::new();
     let mut open: Vec<u32> = (0..body.count).rev().collect();
@@ -96,7 +33,7 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>, Mi
         left_out.push(part);
         match missing.area <= MAX_OMITTED_SHARE * whole {
             true => Ok(()),
-            false => Err(too_many_parts(body, laid)),
+            false => Err(refused(body, laid, limits.strain)),
         }
     };
     loop {
@@ -125,6 +62,10 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>, Mi
         };
         if !removed.is_empty() && body.count < MAX_PARTS {
             open.extend(body.set_apart(part, &removed)?);
+            continue;
+        }
+        if laid.source.len() < MIN_CUT_VERTICES {
+            leave_out(&body, part, &laid)?;
             continue;
         }
         let alone = body.alone(&laid.members);
@@ -183,23 +124,31 @@ fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<FlatPart>, Mi
     Ok((body, parts, missing))
 }
 
-/// The error for a part that would have to be cut further than [`MAX_PARTS`] allows, with its most strained place.
-fn too_many_parts(body: &Body, laid: &FlatPart) -> Error {
+/// The error for a part with which more would be left out than [`MAX_OMITTED_SHARE`] allows, with its most strained place.
+fn refused(body: &Body, laid: &FlatPart, limit: f64) -> Error {
     let [x, y, z] = <[f64; 3]>::from(body.middle(laid.members[laid.worst])).map(rounded);
     let vertices: FxHashSet<u32> = (laid.members.iter())
         .flat_map(|t| body.triangles[*t as usize])
         .collect();
+    let [strain, limit] = [laid.strain, limit].map(|share| rounded(100.0 * share));
+    let fault = match strain > limit {
+        true => format!("its strain would be {strain} %, more than the limit of {limit} %"),
+        false => "its outline would cross itself".into(),
+    };
     Error::NotFlat {
         place: format!("({x}, {y}, {z})"),
         vertices: vertices.len(),
         reason: format!(
-            "more than a tenth of the mesh would be left out, or it would have to be cut into more than {MAX_PARTS} parts"
+            "{fault}, and with it more than a tenth of the surface would be left out, or there would be more than {MAX_PARTS} parts"
         ),
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::body::Place;
+    use super::super::join::join_parts;
+    use super::super::seams::Seams;
     use super::*;
     use crate::unroll::arap_mesh::StoppingCriteria;
 
@@ -338,7 +287,7 @@ mod tests {
             };
             let parts =
                 (0..2).map(|part| FlatPart::whole(&body, body.members(part), UNTIL).unwrap());
-            let seams = Seams::new(&body, 0.3);
+            let seams = Seams::new(&body, 0.3, 0.0);
             join_parts(&body, seams, parts.collect(), limits).unwrap()
         };
         let (seams, sheets) = joined(0.01);

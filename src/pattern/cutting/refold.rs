@@ -1,15 +1,15 @@
 //! Folds flat sheets back into space and measures their distance from the surface.
 //!
 //! A sheet of paper bends but does not stretch. A sheet is folded back by an as-rigid-as-possible deformation: its
-//! flat triangles, tied along its folds, move in space from their positions on the surface to those of least
+//! flat triangles move in space from their positions on the surface to those of least
 //! strain. The distance that they end up from the surface shows how much the strain of the flat sheet matters.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::check::ties;
-use super::seam_graph::SeamGraph;
-use super::sheets::Refolding;
+use super::body::Body;
+use super::lay::FlatPart;
 use crate::error::Result;
+use crate::pattern::sheets::Refolding;
 use crate::unroll::arap_mesh::{ArapMesh, StoppingCriteria};
 use crate::unroll::flat_triangle::{FlatTriangle, Point};
 
@@ -23,49 +23,26 @@ const REFOLDING_RELAXATION: StoppingCriteria = StoppingCriteria {
 };
 
 /// Folds a flat sheet back into space, and measures its distance from the surface.
-pub(super) fn refold_sheet(
-    net: &SeamGraph,
-    patches: &[u32],
-    folded: &[usize],
-) -> Result<Refolding> {
-    let (mut pieces, mut starts) = (Vec::new(), Vec::new());
-    let mut places: Vec<Vector3<f64>> = Vec::new();
-    let mut own = Vec::new();
-    for patch in patches {
-        let first = places.len() as u32;
-        starts.push(first);
-        let Some(flat_patch) = net.flat_patches[*patch as usize].as_ref() else {
-            continue;
-        };
-        places.extend(flat_patch.positions().iter().map(|p| Vector3::from(*p)));
-        own.extend((0..flat_patch.places().len()).map(|vertex| flat_patch.is_own(vertex)));
-        let flat = flat_patch.all_pieces().map(|(_, corners)| {
-            let points = corners.map(|v| flat_patch.places()[v as usize]);
-            let piece = FlatTriangle::from_points(points.map(|p| [p.re, p.im, 0.0]));
-            (piece, corners.map(|v| first + v))
-        });
-        pieces.extend(flat.filter(|(piece, _)| piece.exists()));
-    }
-    let ties = ties(net, patches, &starts, folded);
-    let built = places.clone();
-    let plan: Vec<Point> = places.iter().map(|p| Point::new(p.x, p.y)).collect();
-    let mut joint = ArapMesh::new(&plan, pieces, ties)?;
-    joint.minimise_in_space(&mut places, REFOLDING_RELAXATION)?;
-    let strain = joint.strain_in_space(&places);
+pub(super) fn refold_sheet(body: &Body, laid: &FlatPart) -> Result<Refolding> {
+    let pieces = laid.triangles.iter().map(|corners| {
+        let points = corners.map(|v| laid.places[v as usize]);
+        let piece = FlatTriangle::from_points(points.map(|p| [p.re, p.im, 0.0]));
+        (piece, *corners)
+    });
+    let pieces = pieces.filter(|(piece, _)| piece.exists()).collect();
+    let built = laid.source.iter().map(|v| body.places[*v as usize]);
+    let built: Vec<Vector3<f64>> = built.collect();
+    let plan: Vec<Point> = built.iter().map(|p| Point::new(p.x, p.y)).collect();
+    let mut places = built.clone();
+    let mut sheet = ArapMesh::new(&plan, pieces, Vec::new())?;
+    sheet.minimise_in_space(&mut places, REFOLDING_RELAXATION)?;
+    let strain = sheet.strain_in_space(&places);
     register(&mut places, &built);
-    let away = places.iter().zip(&built).zip(&own);
-    let away = away
-        .filter(|(_, own)| **own)
-        .map(|((p, q), _)| (p - q).norm());
-    let (mut squares, mut count, mut maximum) = (0.0, 0.0f64, 0.0f64);
-    for distance in away {
-        squares += distance * distance;
-        count += 1.0;
-        maximum = maximum.max(distance);
-    }
+    let away = || places.iter().zip(&built).map(|(p, q)| (p - q).norm());
+    let squares: f64 = away().map(|distance| distance * distance).sum();
     Ok(Refolding {
-        rms: (squares / count.max(1.0)).sqrt(),
-        maximum,
+        rms: (squares / built.len().max(1) as f64).sqrt(),
+        maximum: away().fold(0.0, f64::max),
         strain,
     })
 }

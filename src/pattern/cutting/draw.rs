@@ -3,37 +3,29 @@
 use super::body::Body;
 use super::join::Joined;
 use super::junction::Junctions;
+use super::lay::FlatPart;
+use super::refold::refold_sheet;
 use super::seams::Seams;
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::pattern::crumbs::remove_crumbs;
 use crate::pattern::flat_mesh::FlatMesh;
-use crate::pattern::{Direction, Missing, Seam, Sheet};
+use crate::pattern::motion::Motion;
+use crate::pattern::{Direction, Missing, Pattern, Seam, Sheet};
 use crate::shape::patches::{Crease, Patch};
 use crate::unroll::flat_triangle::Point;
 
-/// A mesh cut into flat sheets.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct MeshPattern {
-    /// The sheets; the first is the one with the largest patch. They are seen from outside, the side that the
-    /// mesh's triangles face.
-    pub sheets: Vec<Sheet>,
-    /// The patches of the sheets, the largest area first: the connected components of the patches that were given,
-    /// or the parts that these were cut into.
-    pub patches: Vec<Patch>,
-    /// The creases between the patches, with the cuts inside of patches among them.
-    pub creases: Vec<Crease>,
-    /// Vertices and area of the mesh that are on no sheet.
-    pub missing: Missing,
-}
+/// Distance on a sheet, in edge lengths of the mesh, within which points of a line lie on a straight one.
+/// `benches/patterns.md` has what others give.
+const STRAIGHTNESS_LENGTHS: f64 = 2e-3;
 
 pub(super) fn draw_sheets(
     body: &Body,
     seams: &Seams,
     joined: &[Joined],
     mut missing: Missing,
-) -> Result<MeshPattern> {
+    refold: bool,
+) -> Result<Pattern> {
     let junctions = Junctions::new(body, seams, joined);
     let flat = flat_mesh(body, seams, joined);
     let sheet = |own: &Joined| {
@@ -42,15 +34,19 @@ pub(super) fn draw_sheets(
             true => body.spacing.powi(2),
             false => 0.0,
         };
-        Sheet {
+        Ok(Sheet {
             spacing: body.spacing,
             area: own.laid.area,
             strain: own.laid.strain,
             seam_gap: own.gap,
+            refolding: match refold {
+                true => Some(refold_sheet(body, &own.laid)?),
+                false => None,
+            },
             ..flat.sheet(&own.laid.members, least, |vertex| junctions.at(vertex))
-        }
+        })
     };
-    let mut sheets: Vec<Sheet> = joined.iter().map(sheet).collect();
+    let mut sheets = joined.iter().map(sheet).collect::<Result<Vec<Sheet>>>()?;
     let areas = body.areas();
     let counted = flat.vertices_of_patches(areas.len());
     let patch = |(vertices, area): (usize, f64)| Patch { vertices, area };
@@ -65,7 +61,7 @@ pub(super) fn draw_sheets(
         length: seam.length,
         fold: seam.angle.abs(),
     };
-    Ok(MeshPattern {
+    Ok(Pattern {
         sheets,
         patches,
         creases: seams.all.iter().map(crease).collect(),
@@ -79,8 +75,9 @@ fn flat_mesh<'a>(body: &'a Body, seams: &'a Seams, joined: &[Joined]) -> FlatMes
     let mut flat = vec![[Point::default(); 3]; body.triangles.len()];
     for sheet in joined {
         sheet.whole.iter().for_each(|seam| whole[*seam] = true);
+        let upright = upright(body, &sheet.laid);
         for (t, corners) in sheet.laid.members.iter().zip(&sheet.laid.triangles) {
-            flat[*t as usize] = corners.map(|v| sheet.laid.places[v as usize]);
+            flat[*t as usize] = corners.map(|v| upright.apply(sheet.laid.places[v as usize]));
         }
     }
     let sides = 0..seams.twins.len() as u32;
@@ -90,7 +87,6 @@ fn flat_mesh<'a>(body: &'a Body, seams: &'a Seams, joined: &[Joined]) -> FlatMes
         direction: Direction::from_ridge(seam.angle >= 0.0),
         angle: seam.angle.abs(),
         slit: seam.smooth,
-        torn: false,
     };
     FlatMesh {
         places: &body.places,
@@ -110,5 +106,15 @@ fn flat_mesh<'a>(body: &'a Body, seams: &'a Seams, joined: &[Joined]) -> FlatMes
             .map(|side| seams.of(side).map_or(NO_INDEX, |seam| seam as u32))
             .collect(),
         rounding: 0.0,
+        straightness: STRAIGHTNESS_LENGTHS * body.spacing,
     }
+}
+
+/// The motion that brings a sheet nearest to the surface as it is seen from above.
+fn upright(body: &Body, laid: &FlatPart) -> Motion {
+    let plan = laid.source.iter().map(|v| {
+        let place = body.places[*v as usize];
+        Point::new(place.x, place.y)
+    });
+    Motion::between(&laid.places, &plan.collect::<Vec<Point>>())
 }

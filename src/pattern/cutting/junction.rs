@@ -7,7 +7,22 @@ use super::body::Body;
 use super::join::Joined;
 use super::seams::{Seam, Seams};
 use crate::pattern::Junction;
-use crate::pattern::junction::{MIN_ANGLE_RADIUS_LENGTHS, angle_reach};
+
+/// Maximum radius around a point within which the surface's angle is measured, in edge lengths of the mesh.
+const MAX_ANGLE_RADIUS_LENGTHS: f64 = 20.0;
+
+/// Maximum radius around a point within which the surface's angle is measured, as a share of the shortest seam that
+/// ends there and of the distance to the nearest cut that does not.
+const ANGLE_RADIUS_SHARE: f64 = 0.8;
+
+/// Minimum radius around a point at which the surface's angle is measured, in edge lengths of the mesh; nearer to the point the sampling smooths the surface.
+const MIN_ANGLE_RADIUS_LENGTHS: f64 = 6.0;
+
+/// Radius around a point within which the surface's angle is measured, from the length of the shortest seam that ends there
+/// and the distance to the nearest cut that does not: what the surface bends beside another cut is taken up by that cut.
+fn angle_reach(spacing: f64, shortest: f64, other: f64) -> f64 {
+    (MAX_ANGLE_RADIUS_LENGTHS * spacing).min(ANGLE_RADIUS_SHARE * shortest.min(other))
+}
 
 /// The points of a mesh where cuts or folds end or meet, with the number of the vertex there as the key.
 pub(super) struct Junctions {

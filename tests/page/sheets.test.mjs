@@ -83,6 +83,8 @@ doorTest('a fold that is clicked in the drawing is cut', async (page) => {
     return Array.from({ length: canvas.width * canvas.height }, (_, i) => data[4 * i + 3] > 128 && data[4 * i] + data[4 * i + 1] + data[4 * i + 2] < 600).filter(Boolean).length;
   });
   assert.ok(inked > shown.width, `${inked} pixels of lines`);
+  // A file that is still being written cannot be saved either.
+  await page.locator('#save-now:enabled').waitFor();
   await page.locator('.edges summary').click();
   await toCut.fill('1-');
   await toCut.press('Tab');

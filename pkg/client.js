@@ -93,11 +93,10 @@ export class DevelopableWorker {
   async open(input, options) {
     const sent = handedOver(asInput(input), options);
     const connection = this.#connect();
-    opened += 1;
-    const id = opened;
-    await connection.request((remote) => remote.open(id, sent));
-    const solver = new OpenSolver(connection, id);
-    return /** @type {import('./index.js').OpenSolver} */ (/** @type {unknown} */ (solver)); // for `using`
+    const id = (opened += 1);
+    // Its answer is not awaited: where the page is busy by then, the first solve would wait for it. What is wrong is told by that.
+    await connection.request(async (remote) => void remote.open(id, sent).catch(() => {}));
+    return /** @type {import('./index.js').OpenSolver} */ (/** @type {unknown} */ (new OpenSolver(connection, id))); // for `using`
   }
 
   /**

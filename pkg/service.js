@@ -100,9 +100,8 @@ export const service = {
    * @param {number} solver
    * @param {Input} input
    */
-  async open(solver, input) {
-    await loaded(['solver']);
-    openSolvers.set(solver, new WarmSolver(input));
+  open(solver, input) {
+    openSolvers.set(solver, new WarmSolver(input, () => loaded(['solver'])));
   },
 
   /**

@@ -18,8 +18,7 @@ let solves = 0;
  */
 export async function solve(remote, start, { signal, keep, onProgress }) {
   if (!keep) signal?.throwIfAborted();
-  solves += 1;
-  const id = solves;
+  const id = (solves += 1);
   /** @param {boolean} keep */
   const stop = (keep) => void remote.stop(id, keep).catch(() => {});
   const onAbort = () => stop(keep);

@@ -15,10 +15,12 @@ export class WarmSolver {
   #solver;
   /** @type {Job | undefined} the last one */
   #job;
+  #load;
 
-  /** @param {Input} input */
-  constructor(input) {
+  /** @param {Input} input @param {() => Promise<unknown>} load loads the wasm */
+  constructor(input, load) {
     this.#input = input;
+    this.#load = load;
   }
 
   /**
@@ -46,7 +48,8 @@ export class WarmSolver {
   }
 
   /** @param {SolverOptions} options */
-  #begin(options) {
+  async #begin(options) {
+    await this.#load();
     const input = this.#input;
     if (!this.#solver) this.#solver = new direct.Solver(/** @type {Input} */ (input), options);
     else if (input) this.#solver.restartWith(input, options);

@@ -11,6 +11,9 @@ export function count(n) {
   return n.toLocaleString('en', { maximumFractionDigits: 0 }).replaceAll(',', NARROW_NO_BREAK_SPACE);
 }
 
+/** An integer with its noun. @param {number} n @param {string} one @param {string} [many] */
+export const countOf = (n, one, many = `${one}s`) => `${count(n)} ${n === 1 ? one : many}`;
+
 /**
  * A number, or 0 if it is a rounding error compared with a typical value of its quantity.
  * @param {number} value

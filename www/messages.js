@@ -1,5 +1,5 @@
 /** Sentences of the page: results, errors, hints and labels. */
-import { count, number, percent, percentAtMost, seconds, shortLambda } from './format.js';
+import { count, countOf, number, percent, percentAtMost, seconds, shortLambda } from './format.js';
 import { plainMessage } from './error-messages.js';
 
 /** @typedef {import('../pkg/types.js').Assumption} Assumption */
@@ -64,7 +64,7 @@ export const FILE_WORDS = {
 /** Messages about depths from a camera. */
 export const DEPTH_WORDS = {
   /** @param {string} angle @param {number} scale */
-  assumed: (angle, scale) => `Assumed: ${angle}° field of view, depths in ${scale === 1 ? 'metres' : scale === 0.001 ? 'millimetres' : `steps of ${number(scale)} m`}. Correct it under “Input” if lengths are off.`,
+  assumed: (angle, scale) => `${angle}° field of view, depths in ${scale === 1 ? 'metres' : scale === 0.001 ? 'millimetres' : `steps of ${number(scale)} m`}`,
   maybe: 'These may be depths from a camera. If so, build the 3D surface below. Now the page takes them for heights.',
   failed: 'The 3D surface could not be built',
   /** @param {import('../pkg/types.js').PhotoCamera} camera */
@@ -119,7 +119,7 @@ export const ADDRESS_WORDS = {
 /** Figures below each of the five pictures with different λ. */
 export const STRIP_WORDS = {
   /** @param {number} pieces infinite if the surface is creased all over @param {number} distance distance from the input, as a share of the width */
-  figures: (pieces, distance) => `${Number.isFinite(pieces) ? `${count(pieces)} ${pieces === 1 ? 'piece' : 'pieces'}` : 'many small creases'} · ${percent(distance)} from the input`,
+  figures: (pieces, distance) => `${Number.isFinite(pieces) ? countOf(pieces, 'piece') : 'many small creases'} · ${percent(distance)} from the input`,
 };
 
 /** Messages about the fit of a whole mesh. */
@@ -135,13 +135,13 @@ export const MESH_FIT_WORDS = {
   maxIterations: 'The solve stopped at the maximum number of iterations.',
   diverged: 'The iterations diverged. You see the best surface before.',
   /** @param {number} n */
-  repaired: (n) => `${count(n)} ${n === 1 ? 'triangle was' : 'triangles were'} repaired first: wrong side, no area, or double.`,
+  repaired: (n) => `${countOf(n, 'triangle was', 'triangles were')} repaired first: wrong side, no area, or double.`,
   /** @param {number} n */
-  branched: (n) => `${count(n)} ${n === 1 ? 'edge has' : 'edges have'} three triangles or more, and ${n === 1 ? 'is a border' : 'are borders'} of each.`,
+  branched: (n) => `${countOf(n, 'edge has', 'edges have')} three triangles or more, and ${n === 1 ? 'is a border' : 'are borders'} of each.`,
   /** @param {number} n @param {string} place */
-  entangled: (n, place) => `${count(n)} ${n === 1 ? 'triangle is' : 'triangles are'} folded over or cross others, the first near (${place}). Repair the mesh there.`,
+  entangled: (n, place) => `${countOf(n, 'triangle is', 'triangles are')} folded over or cross others, the first near (${place}). Repair the mesh there.`,
   /** @param {number} n */
-  flipped: (n) => `${count(n)} ${n === 1 ? 'triangle' : 'triangles'} of the result ${n === 1 ? 'is' : 'are'} folded over.`,
+  flipped: (n) => `${countOf(n, 'triangle')} of the result ${n === 1 ? 'is' : 'are'} folded over.`,
   /** @param {number} passes @param {string} gap */
   proof: (passes, gap) => `The last of ${count(passes)} steps is proven within ${gap} of its optimum.`,
 };
@@ -154,7 +154,7 @@ export const SHEET_WORDS = {
   title: 'Cut-out sheets',
   /** @param {string} side @param {number} pages @param {number} joints @param {string} [smallest] of several sheets */
   headline: (side, pages, joints, smallest) =>
-    `Cut-out sheets: ${side} mm, ${pages === 1 ? '1 page' : `${count(pages)} pages`}, ${joints === 1 ? '1 joint' : `${count(joints)} joints`}${smallest ? `, smallest sheet ${smallest} mm` : ''}`,
+    `Cut-out sheets: ${side} mm, ${countOf(pages, 'page')}, ${countOf(joints, 'joint')}${smallest ? `, smallest sheet ${smallest} mm` : ''}`,
   /** @param {string} smallest */
   small: (smallest) => `Hard to build: the smallest sheet is ${smallest} mm long. Make it larger, or its pieces simpler by less detail.`,
   /** @param {number} pages */
@@ -236,10 +236,10 @@ export const HEADLINE_WORDS = {
 export const RUN_WORDS = {
   stopping: 'Stopping',
   /** @param {number} level */
-  coarse: (level) => `Coarse solve, ${count(level)} finer ${level === 1 ? 'one' : 'ones'} to come`,
+  coarse: (level) => `Coarse solve, ${countOf(level, 'finer one')} to come`,
   /** @param {number | undefined} gap @param {number} iterations */
   fine: (gap, iterations) =>
-    `${gap !== undefined && gap < MAX_MENTIONED_GAP ? `Within ${percentAtMost(gap)} of the best possible` : TASK_WORDS.solving}, ${count(iterations)} ${iterations === 1 ? 'iteration' : 'iterations'}`,
+    `${gap !== undefined && gap < MAX_MENTIONED_GAP ? `Within ${percentAtMost(gap)} of the best possible` : TASK_WORDS.solving}, ${countOf(iterations, 'iteration')}`,
 };
 
 /** The certificate of a result as one sentence. @param {Report} report */

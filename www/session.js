@@ -38,7 +38,6 @@ import { WORKER_IDLE_MS } from './worker-task.js';
  * @property {import('./import-interpretation.js').StoredHeights} [stored] contents of the file, and how they are interpreted
  * @property {{ name: string, image: ImageData }} [photo] photo that was opened together with it
  * @property {Input} [depthSource] depths from which the mesh was built
- * @property {string} [cameraAssumption] message that says what was assumed about the camera of the depths
  */
 
 /**

@@ -54,9 +54,29 @@ test('the newest wish wins', async () => {
   assert.equal(await later, 'DISPOSED');
 });
 
+test('a first solve begins while the caller is busy', async () => {
+  const large = image(150, 150, (x, y) => Math.abs(x - y) + 3 * Math.sin(x * y));
+  const solved = async (/** @type {number} */ busyMs) => {
+    const opened = developable.open(large);
+    const surface = opened.then((solver) => solver.fit({ lambda: 1e6 }));
+    // What is sent goes out in promises, without the event loop.
+    for (let i = 0; i < 50; i++) await undefined;
+    const start = performance.now();
+    while (performance.now() - start < busyMs);
+    const free = performance.now();
+    await surface;
+    (await opened).dispose();
+    return performance.now() - free;
+  };
+  await solved(0);
+  const alone = await solved(0);
+  const rest = await solved(3 * alone);
+  assert.ok(rest < alone / 2, `${rest} of ${alone} ms`);
+});
+
 test('what is overtaken before its turn is never set up', async () => {
   await init();
-  const kept = new WarmSolver(/** @type {any} */ ({ ...rough, kind: 'image' }));
+  const kept = new WarmSolver(/** @type {any} */ ({ ...rough, kind: 'image' }), init);
   let made = 0;
   const restart = Solver.prototype.restart;
   Solver.prototype.restart = function (options) {

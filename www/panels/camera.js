@@ -107,9 +107,9 @@ export function cameraPanel(session, openLoadedMesh) {
     const { name, width, height, data, photo } = input;
     const camera = presentCamera(input);
     const unit = input.depths ? { unit: /** @type {const} */ ('m') } : {};
-    const cameraAssumption = isAssumed ? DEPTH_WORDS.assumed(number(fields.number('camera-angle')), fields.number('camera-scale')) : undefined;
-    return openLoadedMesh({ name, kind: 'depths', photo, depthSource: input, cameraAssumption },
-      (signal) => runInWorker(session.api, signal, async (worker) => ({ ...await worker.backProject({ width, height, data }, camera), ...unit })),
+    const assumptions = isAssumed ? [{ code: 'camera', words: DEPTH_WORDS.assumed(number(fields.number('camera-angle')), fields.number('camera-scale')) }] : [];
+    return openLoadedMesh({ name, kind: 'depths', photo, depthSource: input },
+      (signal) => runInWorker(session.api, signal, async (worker) => ({ ...await worker.backProject({ width, height, data }, camera), ...unit, assumptions })),
       DEPTH_WORDS.failed, 'building');
   };
   element('back-project', HTMLButtonElement).addEventListener('click', async () => {

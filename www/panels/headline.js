@@ -81,6 +81,5 @@ export function headlinePanel(session, analyses, stage, heights) {
 /** Noise reduction, size and assumptions, for the line below the headline. @param {Session} session */
 function detailsOf({ input, result }) {
   if (!input) return '';
-  const report = result?.input === input ? result.surface.report : null;
-  return [report ? noiseReductionInWords(result?.accuracy) : `${count(input.width * input.height)} pixels.`, input.cameraAssumption].filter(Boolean).join(' ');
+  return result?.input === input ? noiseReductionInWords(result.accuracy) : `${count(input.width * input.height)} pixels.`;
 }

@@ -21,6 +21,8 @@ const STEEL_LOOK = { up: [0, 0, 1], direction: [0.375, 0.687, -0.622], isMetal: 
 export function heightsPanel(session, analyses) {
   /** Input and result. @type {[Relief | null, Relief | null]} */
   const reliefs = [null, null];
+  /** @type {ReturnType<Subject['box']>} */
+  let box = null;
   let caption = '';
   /** @type {ReturnType<Subject['mark']>} */
   let mark = '';
@@ -35,7 +37,7 @@ export function heightsPanel(session, analyses) {
     name: () => session.input?.name ?? 'view',
     caption: () => (session.input ? `${session.input.name}, ${number(session.input.width, 6)} × ${number(session.input.height, 6)}` : ''),
     look: () => STEEL_LOOK,
-    box: () => session.input && heightfieldBox(session.input),
+    box: () => box,
     surface: (side, isFast) => {
       const relief = reliefs[side];
       return relief && reliefMesh(relief, isFast);
@@ -82,6 +84,7 @@ export function heightsPanel(session, analyses) {
   };
   session.on('input', (input) => {
     reliefs[0] = reliefOf(input, input, input.heightScale);
+    box = heightfieldBox(input);
     stage.renew(heights);
   });
   session.on('cleared', () => {

@@ -2,12 +2,12 @@
 import { runInWorker } from '../worker-task.js';
 import { element } from '../dom.js';
 import { choiceOf } from '../fields.js';
-import { count, number } from '../format.js';
+import { countOf, number } from '../format.js';
 import { gridOverLattice } from '../surface/lattice.js';
 import { sidesOf } from '../surface/triangles.js';
 import { callWorker } from '../surface/worker-client.js';
 
-/** @typedef {Pick<Input, 'name' | 'kind' | 'photo' | 'depthSource' | 'cameraAssumption'>} InputOrigin */
+/** @typedef {Pick<Input, 'name' | 'kind' | 'photo' | 'depthSource'>} InputOrigin */
 
 /** Directions of view by the axis that points at the viewer. @type {Record<string, string>} */
 const DIRECTIONS = { '-z': '+z', '-x': '+x', '-y': '+y', '+z': '−z', '+x': '−x', '+y': '−y', 'best-fit': 'Fitted plane' };
@@ -91,7 +91,7 @@ function openSampledMesh(session, origin, load, options, doing, task) {
 /** The number of triangles or points and the bounding box as a sentence. @param {Mesh} mesh */
 function spanInWords({ positions, triangles, unit, missing = [] }) {
   const sides = sidesOf(positions).map((side) => number(side)).join(' × ');
-  const size = triangles.length > 0 ? `${count(triangles.length / 3)} triangles` : `${count(positions.length / 3)} points`;
-  const without = missing.length > 0 ? ` Without ${missing.join(', ')}, which were not opened with it.` : '';
+  const size = triangles.length > 0 ? countOf(triangles.length / 3, 'triangle') : countOf(positions.length / 3, 'point');
+  const without = missing.length > 0 ? ` Without ${missing.join(', ')}: not opened with it.` : '';
   return `${sides}${unit ? ` ${unit}` : ''}, ${size}.${without}`;
 }

@@ -182,7 +182,7 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
     fileOptions.hidden = !isFile || (input.sampling !== undefined && !isBackProjected);
     fileOptions.toggleAttribute('data-built', isBackProjected);
     if (input.example) examples.set('example', input.name);
-    const guessed = input.depths ? DEPTH_WORDS.maybe : isBackProjected ? input.cameraAssumption : input.stored?.guesses;
+    const guessed = input.depths ? DEPTH_WORDS.maybe : isBackProjected ? '' : input.stored?.guesses;
     guesses.textContent = [assumedInWords(input.assumptions), guessed].filter(Boolean).join(' ');
     guesses.hidden = guesses.textContent === '';
     if (fileOptions.hidden) return;

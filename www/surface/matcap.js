@@ -7,7 +7,7 @@
  */
 
 /** Side of the texture. */
-export const MATCAP_SIDE_TEXELS = 256;
+export const MATCAP_SIDE_TEXELS = 128;
 /** Radius of the disk on which a renderer looks up a normal, in half sides of the texture. */
 const DISK_RADIUS = 0.99;
 /** Place of the light above the unit disk that stands for the directions towards the viewer, y up. */
@@ -43,11 +43,14 @@ export function lightFrom(tilt) {
  */
 export function fillMatcap(texels, [lx, ly, lz], { isMetal, isPale }) {
   const step = 2 / (MATCAP_SIDE_TEXELS - 1) / DISK_RADIUS;
+  const [r, g, b] = isMetal || isPale ? [255, 255, 255] : PAPER_COLOUR;
   for (let j = 0, i = 0; j < MATCAP_SIDE_TEXELS; j++) {
     for (let k = 0; k < MATCAP_SIDE_TEXELS; k++, i += 4) {
-      const [x, y] = [k * step - 1 / DISK_RADIUS, j * step - 1 / DISK_RADIUS];
-      const outside = Math.max(1, Math.hypot(x, y));
-      const [nx, ny] = [x / outside, y / outside];
+      const x = k * step - 1 / DISK_RADIUS;
+      const y = j * step - 1 / DISK_RADIUS;
+      const outside = Math.max(1, Math.sqrt(x * x + y * y));
+      const nx = x / outside;
+      const ny = y / outside;
       const nz = Math.sqrt(Math.max(0, 1 - nx * nx - ny * ny));
       const facing = nx * lx + ny * ly + nz * lz;
       // The cosine between the light and the view (0, 0, 1) mirrored at the normal, or the normal itself.
@@ -55,8 +58,10 @@ export function fillMatcap(texels, [lx, ly, lz], { isMetal, isPale }) {
       const shown = isPale ? 0.45 + 0.55 * tone : tone;
       // Dark tones of steel are bluish, bright ones white.
       const tint = isMetal && !isPale ? 0.1 * (1 - tone) : 0;
-      const [r, g, b] = isMetal || isPale ? [255, 255, 255] : PAPER_COLOUR;
-      texels.set([Math.min(255, r * shown * (1 - tint)), Math.min(255, g * shown), Math.min(255, b * shown * (1 + 1.3 * tint)), 255], i);
+      texels[i] = Math.min(255, r * shown * (1 - tint));
+      texels[i + 1] = Math.min(255, g * shown);
+      texels[i + 2] = Math.min(255, b * shown * (1 + 1.3 * tint));
+      texels[i + 3] = 255;
     }
   }
 }

@@ -60,19 +60,23 @@ export function reliefMesh({ width, height, heights, heightScale, extent }, isFa
   let filling = 0;
   for (let i = 0; i < data.length && Number.isNaN((filling = data[i] * heightScale)); i++);
   let corners = 0;
+  /** @param {number} a @param {number} b @param {number} c */
+  const add = (a, b, c) => {
+    if (isHole[a] || isHole[b] || isHole[c]) return;
+    triangles[corners++] = a;
+    triangles[corners++] = b;
+    triangles[corners++] = c;
+  };
   for (let row = 0, i = 0; row < rows; row++) {
     for (let col = 0; col < cols; col++, i++) {
-      const [across, down] = [(col + 0.5) / cols, (row + 0.5) / rows];
       const z = data[i] * heightScale;
       isHole[i] = Number(Number.isNaN(z));
-      positions.set([extent.left + across * extent.width, extent.top - down * extent.height, isHole[i] ? filling : z], 3 * i);
+      positions[3 * i] = extent.left + ((col + 0.5) / cols) * extent.width;
+      positions[3 * i + 1] = extent.top - ((row + 0.5) / rows) * extent.height;
+      positions[3 * i + 2] = isHole[i] ? filling : z;
       if (row === 0 || col === 0) continue;
-      const [a, b, c] = [i - cols - 1, i - cols, i - 1];
-      for (const triangle of [[a, c, b], [b, c, i]]) {
-        if (triangle.some((corner) => isHole[corner])) continue;
-        triangles.set(triangle, corners);
-        corners += 3;
-      }
+      add(i - cols - 1, i - 1, i - cols);
+      add(i - cols, i - 1, i);
     }
   }
   return corners > 0 ? { positions, triangles: triangles.subarray(0, corners) } : null;

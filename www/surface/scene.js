@@ -83,7 +83,9 @@ export class SceneView {
   #isFitDue = false;
   /** Materials by kind, which are kept so that their shaders are compiled once. @type {Map<string, any>} */
   #materials = new Map();
-  #resizing = new ResizeObserver(() => this.draw());
+  #resizing = new ResizeObserver(() => {
+    if (this.#canvasSize() !== this.#shownSize) this.draw();
+  });
   /** Ends the first turn. */
   #turning = new AbortController();
   /** Draws the picture with the next frame. */
@@ -204,7 +206,9 @@ export class SceneView {
   /** Places in the units of the drawn box, for which 32-bit floats are precise enough. @param {ArrayLike<number>} places */
   #scaled(places) {
     const { middle, scale } = this.#frame;
-    return new this.#three.BufferAttribute(Float32Array.from(places, (value, i) => (value - middle[i % 3]) * scale), 3);
+    const scaled = new Float32Array(places.length);
+    for (let i = 0; i < places.length; i++) scaled[i] = (places[i] - middle[i % 3]) * scale;
+    return new this.#three.BufferAttribute(scaled, 3);
   }
 
   /** @param {0 | 1} side @param {'surface' | 'lines'} what @param {any} object */
@@ -418,13 +422,19 @@ export class SceneView {
     });
   }
 
+  /** What the size of the canvas depends on. */
+  #canvasSize(ratio = window.devicePixelRatio) {
+    const { width, height } = this.#size;
+    return [width, height, ratio].join();
+  }
+
   /** Draws the picture now. @param {number} [ratio] pixels of the canvas per CSS pixel */
   draw(ratio = this.#ownSize ? 1 : window.devicePixelRatio) {
     const { width, height } = this.#size;
     if (width === 0) return;
     if (this.#isFitDue) this.fit();
     // A canvas that is resized, even to its own size, is made anew.
-    const size = [width, height, ratio].join();
+    const size = this.#canvasSize(ratio);
     if (size !== this.#shownSize) {
       this.#shownSize = size;
       this.#renderer.setPixelRatio(ratio);

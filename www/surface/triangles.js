@@ -38,13 +38,15 @@ export function fillTriangles({ width, height }, triangles, places, visit) {
  * @param {number} [dimensions] coordinates of each
  */
 export function boxOf(places, dimensions = 3) {
-  const [low, high] = [Infinity, -Infinity].map((end) => Array.from({ length: dimensions }, () => end));
-  for (let i = 0; i < places.length; i++) {
-    const k = i % dimensions;
-    if (places[i] < low[k]) low[k] = places[i];
-    if (places[i] > high[k]) high[k] = places[i];
-  }
-  return { low, high };
+  const ends = Array.from({ length: dimensions }, (_, k) => {
+    let [low, high] = [Infinity, -Infinity];
+    for (let i = k; i < places.length; i += dimensions) {
+      if (places[i] < low) low = places[i];
+      if (places[i] > high) high = places[i];
+    }
+    return { low, high };
+  });
+  return { low: ends.map(({ low }) => low), high: ends.map(({ high }) => high) };
 }
 
 /** The sides of the bounding box of places. @param {ArrayLike<number>} places @param {number} [dimensions] */

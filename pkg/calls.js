@@ -5,8 +5,8 @@
  */
 import { asDepthOptions } from './depth-input.js';
 import { copyOfFile } from './file-bytes.js';
-import { isImage, isImagePhoto } from './formats.js';
-import { asBytes, asField, asHeights, asImage, detached } from './input.js';
+import { isBasic, isImage, isImagePhoto } from './formats.js';
+import { asBytes, asField, asHeights, asImage, asPixels, detached } from './input.js';
 import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
 import { optionsOf } from './options.js';
 import { asEdges, asFoundPage, edgesAndOptions, pageOptions, plainEdges } from './page-input.js';
@@ -54,7 +54,13 @@ export const CALLS = {
   },
   formatOf: { parts: ['files'], send: async (bytes) => [await fileOf(bytes)] },
   npzArrays: { parts: ['images'], send: async (bytes) => [await fileOf(bytes)] },
-  writeNpy: { parts: ['files'], send: (input) => [handedOver(asField(input))] },
+  writeImage: {
+    parts: (_, { format }) => [isBasic(format) ? 'files' : 'images'],
+    send(input, given) {
+      const { format = 'npy' } = /** @type {import('./types.js').WriteImageOptions} */ (optionsOf('writeImage', given));
+      return [handedOver(asPixels(input, format)), { format }];
+    },
+  },
   writeGlb: {
     parts: ['meshes'],
     async send(input, given) {

@@ -1,8 +1,8 @@
 /** The synchronous API: runs where it is called. Documented in `direct.d.ts`. */
 import { asDepthOptions } from './depth-input.js';
 import { DevelopableError } from './errors.js';
-import { isImage } from './formats.js';
-import { asBytes, asField, asHeights, asImage, asInput, carriedOf } from './input.js';
+import { isBasic, isImage } from './formats.js';
+import { asBytes, asField, asHeights, asImage, asInput, asPixels, carriedOf } from './input.js';
 import { files, images, meshFits, meshes, partOf, patterns, solver, surfaces } from './instances.js';
 import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
 import { optionsOf } from './options.js';
@@ -34,7 +34,7 @@ export async function load(...parts) {
 }
 
 export const {
-  writePng, writeTiff, writeExr, writeObj, writeMtl, writePly, writeStl, patches, rulings, unroll, pattern, analyzeMesh, meshRulings, unrollMesh,
+  writeObj, writeMtl, writePly, writeStl, patches, rulings, unroll, pattern, analyzeMesh, meshRulings, unrollMesh,
   recognizeMesh, writeSvg, writePdf, writeDxf,
 } = /** @type {Pick<typeof import('./direct.js'), import('./plain-calls.js').PlainCallName>} */ (ofPlainCalls((name, part, check) => {
   const call = (/** @type {any} */ input, /** @type {object | undefined} */ given) => {
@@ -189,10 +189,12 @@ export function npzArrays(bytes) {
   return images.call((wasm) => wasm.npzArrays(file));
 }
 
-/** @type {typeof import('./direct.js').writeNpy} */
-export function writeNpy(input) {
-  const field = asField(input);
-  return bytesOf((wasm) => (field.kind === 'image' ? wasm.writeImageNpy(field) : wasm.writeLatticeNpy(field)));
+/** @type {typeof import('./direct.js').writeImage} */
+export function writeImage(input, given) {
+  const { format = 'npy' } = optionsOf('writeImage', given);
+  const image = asPixels(input, format);
+  const part = isBasic(format) ? files : images;
+  return unshared(part.call((wasm) => wasm.writeImage(image, format)));
 }
 
 /** @type {typeof import('./direct.js').writeGlb} */

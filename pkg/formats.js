@@ -3,6 +3,9 @@
 /** First bytes of a PNG, NPY and JPEG file, as Latin-1. */
 const [PNG, NPY, JPEG] = ['\x89PNG\r\n\x1a\n', '\x93NUMPY', '\xff\xd8\xff'];
 
+/** Whether the smaller wasm file reads and writes a format of heights. @param {unknown} format */
+export const isBasic = (format) => format === 'png' || format === 'npy';
+
 /**
  * Whether the wasm of the images is to read these heights.
  * @param {Uint8Array} bytes
@@ -10,7 +13,7 @@ const [PNG, NPY, JPEG] = ['\x89PNG\r\n\x1a\n', '\x93NUMPY', '\xff\xd8\xff'];
  */
 export function isImage(bytes, options) {
   const { format } = Object(options);
-  return format === undefined ? !beginsWith(bytes, PNG, NPY) : format !== 'png' && format !== 'npy';
+  return format === undefined ? !beginsWith(bytes, PNG, NPY) : !isBasic(format);
 }
 
 /** Whether the wasm of the images is to read this photo. @param {Uint8Array} bytes */

@@ -10,7 +10,7 @@ import type {
   ExploredPatterns, OcclusionOptions, PageEdges, PageOutlines, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, PatternPlan, Photo, Picture,
   PictureOptions, Progress,
   ReadMeshOptions, ReadOptions, ReadResult, RulingField, RulingOptions, SampledMesh, SampleMeshOptions, SizedPhoto,
-  SolverOptions, Surface, SurfaceOf, SurfacePicture, ThreadOptions, Unrolling, UnrollOptions, WriteBookOptions, WriteObjOptions, WritePdfOptions, WritePhotoOptions, WriteSvgOptions,
+  SolverOptions, Surface, SurfaceOf, SurfacePicture, ThreadOptions, Unrolling, UnrollOptions, WriteBookOptions, WriteImageOptions, WriteObjOptions, WritePdfOptions, WritePhotoOptions, WriteSvgOptions,
 } from './types.js';
 export { parseCamera } from './camera-file.js';
 export * from './types.js';
@@ -215,23 +215,11 @@ export function formatOf(bytes: Uint8Array | ArrayBuffer | Blob): Promise<string
 /** Lists the arrays of an NPZ file, one of which `read` takes by its name. It rejects with code `FORMAT` for another file. */
 export function npzArrays(bytes: Uint8Array | ArrayBuffer | Blob): Promise<NpzArray[]>;
 /**
- * Writes heights, of an image or on a lattice, to an NPY file of 64-bit floats with as many rows and columns, the top row first: in the
- * unit of lengths (of an image steps times `heightScale`), and NaN for no data. Of a surface it writes the lattice; `surface.image` are
- * its pixels.
+ * Writes heights to a file: those of an image in the unit of lengths (steps times `heightScale`), NaN for no data, or those of a
+ * surface's image. A surface that has none rejects with code `INPUT`, but an NPY file takes the heights at the vertices of its
+ * lattice, row by row.
  */
-export function writeNpy(input: HeightImage | Heightfield): Promise<Uint8Array<ArrayBuffer>>;
-/**
- * Writes an image, or the image of a surface, to a 16-bit grey PNG file. Its text chunks state pixel size, height scale
- * and offset, which `read` takes; level 0 is no data. A surface without an image rejects with code `INPUT`.
- */
-export function writePng(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
-/**
- * Writes an image, or the image of a surface, to a TIFF file of 32-bit floats in the unit of lengths (steps times `heightScale`), with the
- * pixel size and the georeference if there is one; NaN is no data. A surface without an image rejects with code `INPUT`.
- */
-export function writeTiff(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
-/** Writes an image, or the image of a surface, likewise to an EXR file of 32-bit floats in the channel Z. */
-export function writeExr(input: HeightImage | Surface): Promise<Uint8Array<ArrayBuffer>>;
+export function writeImage(input: HeightImage | Heightfield | Surface, options?: WriteImageOptions): Promise<Uint8Array<ArrayBuffer>>;
 /**
  * Writes a mesh, or the triangles of a heightfield, to an OBJ file with normals, colours and texture coordinates: in
  * the axes of its `frame`, in its unit of length.

@@ -36,7 +36,7 @@ const forwarded = Object.fromEntries([...Object.keys(CALLS), ...OTHERS].map((nam
 }));
 
 export const {
-  fit, open, occlusions, read, formatOf, writeNpy, writePng, npzArrays, writeTiff, writeExr, writeObj, writeMtl, writePly, writeStl,
+  fit, open, occlusions, read, formatOf, npzArrays, writeImage, writeObj, writeMtl, writePly, writeStl,
   writeGlb, readMesh, sampleMesh, fitMesh, backProject, analyzeMesh, meshRulings, unrollMesh, patternMesh, recognizeMesh, paint, analyze,
   patches, picture, draw, rulings, fitCylinder, unroll, pattern, explorePattern, explorePatternMesh, writeSvg, writePdf,
   writeDxf, dewarp, dewarpPage, flattenPhoto, findPage, readPhoto, writePhoto, writeBook, example,

@@ -89,17 +89,22 @@ export function asImage(input) {
 }
 
 /**
- * An image that is to be written, or the one that a surface has.
- * @param {HeightImage | import('./types.js').Surface} input
+ * An image that is to be written, or the one that a surface has. An array takes heights on the lattice as well.
+ * @param {HeightImage | Heightfield | import('./types.js').Surface} input
+ * @param {import('./schema/image-files.js').ImageFile} format
  * @returns {Image}
  */
-export function asPixels(input) {
+export function asPixels(input, format) {
   const { said, lattice } = read(input);
   if (!lattice) return imageHeights(said);
   if (said.image !== undefined) return asImage(/** @type {HeightImage} */ (said.image));
+  if (format === 'npy') {
+    const { rows: height, cols: width, heights: data, mask, noData } = latticeHeights(said);
+    return { kind: 'image', width, height, data, mask, noData };
+  }
   throw new DevelopableError(
     'INPUT',
-    'there must be pixels, and these are heights on the lattice that were no image: writeNpy and the meshes take them; ' +
+    'there must be pixels, and these are heights on the lattice that were no image: NPY and the meshes take them; ' +
       'or pass { width: cols, height: rows, data: heights, pixelSize: spacing } to write its rows as they are',
   );
 }

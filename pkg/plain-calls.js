@@ -2,7 +2,7 @@
  * Calls that are about one thing and no more: it is checked, and goes with the options to the function of the same name in one wasm
  * file, here or in the worker. A call of this kind is one row, from which both APIs are made.
  */
-import { asField, asPixels } from './input.js';
+import { asField } from './input.js';
 import { asMeshOrLattice, wholeOf } from './mesh-input.js';
 import { OPTIONS, optionsOf } from './options.js';
 import { asText, plainCopy } from './values.js';
@@ -17,9 +17,6 @@ const asDrawing = (drawing) => plainCopy('the drawing', drawing);
 
 /** @satisfies {Record<string, PlainCall>} */
 export const PLAIN_CALLS = {
-  writePng: ['files', asPixels],
-  writeTiff: ['images', asPixels],
-  writeExr: ['images', asPixels],
   writeObj: ['files', asMeshOrLattice],
   writeMtl: ['files', (picture) => asText('INPUT', "the picture's name", picture)],
   writePly: ['meshes', asMeshOrLattice],

@@ -75,7 +75,7 @@ export interface HeightImage extends FitConditions {
   heightScale?: number;
   /** Unit of all lengths, if it is known. Flat images and files get their true size by it. */
   unit?: Unit | null;
-  /** Where the pixels lie on a map, as `read` returns it for a GeoTIFF; `writeTiff` writes it. */
+  /** Where the pixels lie on a map, as `read` returns it for a GeoTIFF; `writeImage` writes it to a TIFF. */
   georeference?: Georeference;
 }
 

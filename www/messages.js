@@ -186,9 +186,6 @@ export const FORMAT_WORDS = {
   stl: 'a mesh for 3D printing',
   glb: 'a mesh for the web and for phones, with colours',
   ply: 'a mesh in double precision',
-  png16: 'heights as 16-bit grey, with their scale recorded',
-  floats: 'heights as 32-bit floats',
-  npy: 'heights as 64-bit floats, for NumPy',
   png: 'without loss',
   jpg: 'a smaller file',
 };

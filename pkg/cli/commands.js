@@ -1,6 +1,7 @@
 /** The commands: what each does, reads, writes and takes. */
 import { sampleMesh } from '../schema/file.js';
 import { solver, threading } from '../schema/fit.js';
+import { IMAGE_FILES } from '../schema/image-files.js';
 import { drawing } from '../schema/pattern.js';
 import { dewarp, dewarpPage } from '../schema/photo.js';
 import { meshPatches, rulings } from '../schema/shape.js';
@@ -32,12 +33,14 @@ const fitted = [...output, 'unit', ...energy, ...heights, ...mesh, ...known, ...
 /** Flags of those commands that go on with the fitted surface. */
 const shaped = [...fitted, 'as-is'];
 
-/** The calls that write a surface to a file, by its ending, the usual one first: heights at pixels, and meshes. A format is a row here. */
-export const IMAGE_FILES = /** @type {const} */ ({ '.npy': 'writeNpy', '.png': 'writePng', '.tif': 'writeTiff', '.tiff': 'writeTiff', '.exr': 'writeExr' });
+/** The formats of files of heights at pixels, by their endings. */
+export const IMAGE_FORMATS = /** @type {Record<string, import('../schema/image-files.js').ImageFile>} */ (
+  Object.fromEntries(Object.entries(IMAGE_FILES).flatMap(([format, { endings }]) => endings.map((ending) => [ending, format]))));
+/** The calls that write a mesh to a file, by its ending, the usual one first. A format is a row here. */
 export const MESH_FILES = /** @type {const} */ ({ '.obj': 'writeObj', '.ply': 'writePly', '.stl': 'writeStl', '.glb': 'writeGlb' });
 
 /** Endings of files that hold a surface. */
-const SURFACES = Object.keys({ ...IMAGE_FILES, ...MESH_FILES });
+const SURFACES = Object.keys({ ...IMAGE_FORMATS, ...MESH_FILES });
 
 /** Endings in words. @param {readonly string[]} endings */
 export const oneOf = (endings) => (endings.length > 1 ? `${endings.slice(0, -1).join(', ')} or ${endings.at(-1)}` : endings[0]);
@@ -48,7 +51,7 @@ const INPUT =
   'or below; a warning names missing ones. - is standard input';
 
 const OUTPUT =
-  `${oneOf(Object.keys(IMAGE_FILES))} (heights at the input's pixels) or ${oneOf(Object.keys(MESH_FILES))} (a mesh). Of a mesh, the latter ` +
+  `${oneOf(Object.keys(IMAGE_FORMATS))} (heights at the input's pixels) or ${oneOf(Object.keys(MESH_FILES))} (a mesh). Of a mesh, the latter ` +
   'are in its own coordinates, with its colours and texture coordinates, the former heights on the lattice';
 
 /** @satisfies {Record<string, CommandInfo>} */

@@ -3,7 +3,7 @@ import { dirname, relative, sep } from 'node:path';
 import * as developable from '../index.js';
 import { solver } from '../schema/fit.js';
 import { readCamera } from './camera.js';
-import { IMAGE_FILES, MESH_FILES } from './commands.js';
+import { IMAGE_FORMATS, MESH_FILES } from './commands.js';
 import { checkPlaces, readBytes, writeWhole } from './files.js';
 import { withFileName } from './explain.js';
 import { readForFit } from './inputs.js';
@@ -123,7 +123,7 @@ function encode({ extension, output, mtl }, surface, map) {
   const { rows, cols, spacing, heights: data } = surface;
   // On the lattice, the rows of the file are those of the lattice, as in the input.
   const image = surface.image ?? { width: cols, height: rows, data, pixelSize: spacing };
-  return developable[IMAGE_FILES[/** @type {keyof typeof IMAGE_FILES} */ (extension)]]({ ...image, georeference: map });
+  return developable.writeImage({ ...image, georeference: map }, { format: IMAGE_FORMATS[extension] });
 }
 
 /**

@@ -48,7 +48,7 @@ export async function patches(task, signal) {
   async function drawn() {
     const { rows, cols, spacing } = map;
     if (task.extension === '.json') return undefined;
-    if (task.extension === '.npy') return developable.writeNpy({ rows, cols, spacing, heights: labels });
+    if (task.extension === '.npy') return developable.writeImage({ rows, cols, spacing, heights: labels });
     const coloured = { .../** @type {Surface} */ (surface), texture: undefined, uvs: undefined, colors: coloursOf(labels) };
     switch (task.extension) {
       case '.ply': return developable.writePly(coloured);

@@ -1,5 +1,6 @@
 /** Options of files that are read, of meshes seen from one side, and of examples. Each comment is what the types say; the default is added there. */
 import { anything, choice, either, flag, number, numbers, text, whole } from './kinds.js';
+import { IMAGE_FILES } from './image-files.js';
 import { Format } from './names.js';
 
 /** @typedef {import('./kinds.js').Options} Options */
@@ -26,6 +27,19 @@ export const read = {
    * listed in `assumptions`.
    */
   assumeNoData: { kind: flag, default: true },
+};
+
+/** Options of writing heights to a file. @satisfies {Options} */
+export const writeImage = {
+  /**
+   * Format of the file:
+   *
+   * - `'npy'`: 64-bit floats, and the only one that takes heights on the lattice
+   * - `'png'`: 16-bit grey. Text chunks state pixel size, height scale and offset, which `read` takes; level 0 is no data
+   * - `'tiff'`: 32-bit floats, with the pixel size and the georeference if there is one
+   * - `'exr'`: 32-bit floats in the channel Z, with the pixel size
+   */
+  format: { kind: choice(.../** @type {import('./image-files.js').ImageFile[]} */ (Object.keys(IMAGE_FILES))), default: 'npy' },
 };
 
 /** Options of reading a mesh file. @satisfies {Options} */

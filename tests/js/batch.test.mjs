@@ -18,7 +18,7 @@ let folder = root;
 beforeEach(async () => {
   folder = join(root, `case ${++count}`);
   await mkdir(folder);
-  for (const name of ['a.npy', 'b.npy', 'c.npy']) await writeFile(join(folder, name), direct.writeNpy(ramp));
+  for (const name of ['a.npy', 'b.npy', 'c.npy']) await writeFile(join(folder, name), direct.writeImage(ramp));
   await writeFile(join(folder, 'bad.npy'), 'hello');
 });
 
@@ -53,11 +53,11 @@ test('what the same options have made of the same input is skipped, and everythi
   assert.deepEqual(await Promise.all(['out/a.npy', 'out/b.npy'].map(changed)), first);
 
   // Another input, another option, another output in its place.
-  await writeFile(join(folder, 'b.npy'), direct.writeNpy(image(24, 20, (x, y) => 2 * plane(x, y))));
+  await writeFile(join(folder, 'b.npy'), direct.writeImage(image(24, 20, (x, y) => 2 * plane(x, y))));
   assert.match((await developable(...args)).stderr, /2 files: 1 done, 1 done before/);
   assert.equal(await changed('out/a.npy'), first[0]);
   assert.match((await developable(...args.with(-1, '1e4'))).stderr, /2 files: 2 done, 0 failed/);
-  await writeFile(join(folder, 'out/a.npy'), direct.writeNpy(ramp));
+  await writeFile(join(folder, 'out/a.npy'), direct.writeImage(ramp));
   assert.match((await developable(...args.with(-1, '1e4'))).stderr, /2 files: 1 done, 1 done before/);
 
   assert.match((await developable(...args, '--overwrite')).stderr, /2 files: 2 done, 0 failed/);
@@ -67,7 +67,7 @@ test('what the same options have made of the same input is skipped, and everythi
 });
 
 test('patterns that the shell did not expand are expanded, and one without a match starts nothing', async () => {
-  await writeFile(join(folder, 'odd*.npy'), direct.writeNpy(ramp));
+  await writeFile(join(folder, 'odd*.npy'), direct.writeImage(ramp));
   const ended = await developable('fit', '?.npy', 'odd*.npy', '-o', 'out/');
   assert.match(ended.stderr, /4 files: 4 done, 0 failed/);
   assert.deepEqual(await made('out'), ['a.npy', 'b.npy', 'c.npy', 'odd*.npy']);
@@ -84,7 +84,7 @@ test('patterns that the shell did not expand are expanded, and one without a mat
 });
 
 test('a process that does one input of a batch starts no batch', { skip: process.platform !== 'linux' }, async () => {
-  await writeFile(join(folder, 'odd*.npy'), direct.writeNpy(ramp));
+  await writeFile(join(folder, 'odd*.npy'), direct.writeImage(ramp));
   /** @type {number[]} */
   const counts = [];
   /** @param {number} parent @returns {Promise<number>} processes that it started, and those that these did */
@@ -153,7 +153,7 @@ test('wrong usage is found before anything is written', async () => {
 });
 
 test('an interruption ends all processes, and what was done before stays', async () => {
-  await writeFile(join(folder, 'long.npy'), direct.writeNpy(endless(300).input));
+  await writeFile(join(folder, 'long.npy'), direct.writeImage(endless(300).input));
   assert.equal((await developable('fit', 'a.npy', 'b.npy', '-o', 'out/')).status, 0);
   const endlessly = ['--gap', '1e-12', '--lambda', 'small', '--max-iterations', '1e9'];
   /** @type {import('node:child_process').ChildProcess[]} */
@@ -174,7 +174,7 @@ test('the array job in the documentation shares the inputs among its tasks', { s
   const script = text.split('```sh\n').find((block) => block.startsWith('#!/bin/sh'))?.split('```')[0] ?? '';
   assert.match(script, /SLURM_ARRAY_TASK_ID/);
   await mkdir(join(folder, 'scans'));
-  for (const name of ['a', 'b', 'c d']) await writeFile(join(folder, `scans/${name}.npy`), direct.writeNpy(ramp));
+  for (const name of ['a', 'b', 'c d']) await writeFile(join(folder, `scans/${name}.npy`), direct.writeImage(ramp));
   await mkdir(join(folder, 'bin'));
   await writeFile(join(folder, 'bin/npx'), `#!/bin/sh\nshift\nexec '${process.execPath}' '${command}' "$@"\n`, { mode: 0o755 });
   await writeFile(join(folder, 'fit.sh'), script);

@@ -266,7 +266,7 @@ test('a worker that closes itself ends its calls, and the next call has a new on
     const worker = new developable.DevelopableWorker({ workerUrl: '/closing.js' });
     const { input, options } = await endless();
     const first = await worker.fit(input, options).catch(({ code, message }) => ({ code, message }));
-    const next = await worker.writeNpy(plane(3, 3));
+    const next = await worker.writeImage(plane(3, 3));
     worker.dispose();
     return { first, length: next.length };
   })()`);

@@ -149,8 +149,8 @@ test('what is wrong with a camera is said', async () => {
 
 test('the command takes depths with --intrinsics', async () => {
   const folder = await temporaryFolder();
-  await writeFile(join(folder, 'depth.npy'), direct.writeNpy({ width, height, data: depths.map((v) => 1000 * v) }));
-  await writeFile(join(folder, 'rays.npy'), direct.writeNpy({ width, height, data: depths.map((v, i) => v * Math.hypot(...ray(i))) }));
+  await writeFile(join(folder, 'depth.npy'), direct.writeImage({ width, height, data: depths.map((v) => 1000 * v) }));
+  await writeFile(join(folder, 'rays.npy'), direct.writeImage({ width, height, data: depths.map((v, i) => v * Math.hypot(...ray(i))) }));
   const grey = { width: 2 * width, height: 2 * height, data: new Uint8Array(16 * width * height).fill(128) };
   const photo = Buffer.from(direct.writePhoto(grey, { format: 'jpeg' }));
   await writeFile(join(folder, 'photo.jpg'), photo);

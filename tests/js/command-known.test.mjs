@@ -13,8 +13,8 @@ const folder = await temporaryFolder();
 const ramp = image(30, 24, plane);
 const step = image(30, 24, (x, y) => plane(x, y) + (x > 15 ? 9 : 0));
 
-/** @param {string} name @param {Parameters<typeof direct.writeNpy>[0]} input */
-const store = (name, input) => writeFile(join(folder, name), direct.writeNpy(input));
+/** @param {string} name @param {Parameters<typeof direct.writeImage>[0]} input */
+const store = (name, input) => writeFile(join(folder, name), direct.writeImage(input));
 /** @param {string} name */
 const load = async (name) => direct.read(await readFile(join(folder, name)));
 /** Runs a command that has nothing to say but what is expected. @param {string} args @param {string} [expected] */
@@ -78,7 +78,7 @@ test('a file of confidences: whole numbers are shares of the largest', async () 
   await command('fit spoilt.npy -o out.npy --lambda big --confidence trust.npy --pixel-size 1');
   const { data } = await load('out.npy');
   assert.ok(deviation(data, ramp.data) < 0.02, `${deviation(data, ramp.data)}`);
-  const whole = direct.writeNpy({ ...ramp, data: ramp.data.map((_, i) => (wide(i) ? 0 : 1)) });
+  const whole = direct.writeImage({ ...ramp, data: ramp.data.map((_, i) => (wide(i) ? 0 : 1)) });
   // An array of bytes, which this package does not write.
   const text = "{'descr': '|u1', 'fortran_order': False, 'shape': (24, 30), }".padEnd(117) + '\n';
   const bytes = Buffer.concat([

@@ -21,17 +21,17 @@ const hex = lattice(22, 26, plane, 0.5);
 hex.heights[3] = 0;
 hex.heights[7] = NaN;
 
-await writeFile(join(folder, 'ramp.npy'), direct.writeNpy(ramp));
-await writeFile(join(folder, 'rough.npy'), direct.writeNpy(rough));
-await writeFile(join(folder, 'ramp.png'), direct.writePng({ ...ramp, pixelSize: 0.5 }));
-await writeFile(join(folder, 'hex.npy'), direct.writeNpy(hex));
-await writeFile(join(folder, 'hex.png'), direct.writePng({ width: 26, height: 22, data: hex.heights }));
-await writeFile(join(folder, 'endless.npy'), direct.writeNpy(endless(300).input));
+await writeFile(join(folder, 'ramp.npy'), direct.writeImage(ramp));
+await writeFile(join(folder, 'rough.npy'), direct.writeImage(rough));
+await writeFile(join(folder, 'ramp.png'), direct.writeImage({ ...ramp, pixelSize: 0.5 }, { format: 'png' }));
+await writeFile(join(folder, 'hex.npy'), direct.writeImage(hex));
+await writeFile(join(folder, 'hex.png'), direct.writeImage({ width: 26, height: 22, data: hex.heights }, { format: 'png' }));
+await writeFile(join(folder, 'endless.npy'), direct.writeImage(endless(300).input));
 await writeFile(join(folder, 'text.npy'), 'hello');
 const mask = new Uint8Array(480).fill(255);
 mask.fill(0, 0, 30);
-await writeFile(join(folder, 'mask.png'), direct.writePng({ width: 24, height: 20, data: mask, noData: 0 }));
-await writeFile(join(folder, 'mask.npy'), direct.writeNpy({ width: 24, height: 20, data: mask }));
+await writeFile(join(folder, 'mask.png'), direct.writeImage({ width: 24, height: 20, data: mask, noData: 0 }, { format: 'png' }));
+await writeFile(join(folder, 'mask.npy'), direct.writeImage({ width: 24, height: 20, data: mask }));
 
 /** @param {string} name */
 const load = async (name) => direct.read(await readFile(join(folder, name)));
@@ -93,7 +93,7 @@ test('each command has a help of its own, with its flags, an example and how it 
 
 test('patches and rulings are told, and drawn', async () => {
   const folds = image(40, 40, (x) => Math.abs(x - 20));
-  await writeFile(join(folder, 'tent.npy'), direct.writeNpy(folds));
+  await writeFile(join(folder, 'tent.npy'), direct.writeImage(folds));
   const { status, stdout, stderr } = await run(folder, ['patches', 'tent.npy', '--lambda', 'big']);
   assert.deepEqual([status, stderr], [0, '']);
   const map = JSON.parse(stdout);
@@ -118,7 +118,7 @@ test('patches and rulings are told, and drawn', async () => {
   assert.deepEqual([bare.status, /--as-is of an image has no mesh/.test(bare.stderr)], [2, true]);
 
   // The rulings of a cylinder about an axis along y are parallel to it.
-  await writeFile(join(folder, 'tube.npy'), direct.writeNpy(image(40, 40, cylinder(40))));
+  await writeFile(join(folder, 'tube.npy'), direct.writeImage(image(40, 40, cylinder(40))));
   await silently(run(folder, ['rulings', 'tube.npy', '--as-is', '-o', 'r.obj', '--report', 'r.json', '--separation', '5']));
   const ruled = JSON.parse(await readFile(join(folder, 'r.json'), 'utf8'));
   assert.ok(ruled.lines.length >= 4);
@@ -182,7 +182,7 @@ test('heights are scaled', async () => {
 test('a fold steeper than 45 degrees is solved as it is, a needle with wider pixels, and either is said', async () => {
   const rise = (/** @type {number} */ slope) => image(24, 20, (x) => slope * Math.min(x, 24 - x));
   for (const [slope, words, pixel] of /** @type {const} */ ([[4, /: assumed: pixels are 1 wide, .*steep/, 1], [400, /: assumed: pixels are 700 wide: .*too steep/, 700]])) {
-    await writeFile(join(folder, 'steep.npy'), direct.writeNpy(rise(slope)));
+    await writeFile(join(folder, 'steep.npy'), direct.writeImage(rise(slope)));
     const guessed = await fit('steep.npy', '-o', 'guessed.npy');
     assert.equal(guessed.status, 0, guessed.stderr);
     assert.match(guessed.stderr, words);
@@ -200,7 +200,7 @@ test('a mask or a value takes pixels out', async () => {
   }
   const marked = ramp.data.slice();
   marked[5] = -9999;
-  await writeFile(join(folder, 'marked.npy'), direct.writeNpy({ ...ramp, data: marked }));
+  await writeFile(join(folder, 'marked.npy'), direct.writeImage({ ...ramp, data: marked }));
   await silently(fit('marked.npy', '-o', 'out.npy', '--no-data', '-9999', '--bridge', 'none'));
   const { data } = await load('out.npy');
   assert.ok(data.every((z, i) => Number.isNaN(z) === (i === 5)));
@@ -284,8 +284,8 @@ test('wrong usage: status 2, what is wrong, and no output', async () => {
 
 test('bad input: status 3, what is wrong, and no output', async () => {
   await mkdir(join(folder, 'directory.npy'));
-  await writeFile(join(folder, 'cut.npy'), direct.writeNpy(ramp).subarray(0, 1000));
-  await writeFile(join(folder, 'tiny.npy'), direct.writeNpy(image(2, 2, plane)));
+  await writeFile(join(folder, 'cut.npy'), direct.writeImage(ramp).subarray(0, 1000));
+  await writeFile(join(folder, 'tiny.npy'), direct.writeImage(image(2, 2, plane)));
   /** @type {[string, RegExp][]} */
   const cases = [
     ['missing.npy -o x.npy', /missing\.npy.*no such file/],
@@ -393,8 +393,8 @@ test('a terminal is told of each command that it went well, and with --quiet nob
     ['pattern ramp.npy --as-is -o done.svg --unit mm', /^done\.svg: 1 sheet, together \d+ × \d+ mm/m],
     ['dewarp ramp.npy --as-is --texture photo.png -o done.png', /^done\.png: \d+ × \d+ pixels/m],
   ];
-  await writeFile(join(folder, 'pins.npy'), direct.writeNpy({ ...ramp, data: ramp.data.map((z, i) => (i % 7 === 0 ? z : NaN)) }));
-  await writeFile(join(folder, 'photo.png'), direct.writePng({ width: 24, height: 20, data: mask, noData: 0 }));
+  await writeFile(join(folder, 'pins.npy'), direct.writeImage({ ...ramp, data: ramp.data.map((z, i) => (i % 7 === 0 ? z : NaN)) }));
+  await writeFile(join(folder, 'photo.png'), direct.writeImage({ width: 24, height: 20, data: mask, noData: 0 }, { format: 'png' }));
   for (const [args, told] of cases) {
     const { status, stderr } = await run(folder, args.split(' '), { terminal: true });
     assert.equal(status, 0, stderr);

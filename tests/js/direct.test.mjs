@@ -38,11 +38,11 @@ test('an init that fails can be tried again, one that is done stays', async () =
 });
 
 test('files have a wasm of their own', async () => {
-  assert.throws(() => direct.writeNpy(ramp), error('NOT_INITIALIZED', /load\('files'\)/));
+  assert.throws(() => direct.writeImage(ramp), error('NOT_INITIALIZED', /load\('files'\)/));
   await assert.rejects(direct.load({ files: 'does-not-exist.wasm' }), error('INIT', /does-not-exist/));
   loadSync({ files: await readFile(filesWasmFile) });
   await direct.load({ files: 'does-not-exist.wasm' }); // it is there already
-  assert.equal(direct.read(direct.writeNpy(ramp)).width, ramp.width);
+  assert.equal(direct.read(direct.writeImage(ramp)).width, ramp.width);
 });
 
 test('a plane comes back', () => {

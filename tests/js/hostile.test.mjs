@@ -45,7 +45,7 @@ const photo = { width: 4, height: 4, data: new Uint8Array(64).fill(255) };
 const pagePhoto = { width: 40, height: 40, data: new Uint8Array(6400).fill(255), film35: 26 };
 const edges = { top: [[5, 5], [20, 4], [35, 5]], bottom: [[5, 35], [20, 36], [35, 35]] };
 const camera = { fx: 8, fy: 8, cx: 4, cy: 4, depthScale: 1, depth: 'planar' };
-const npy = direct.writeNpy(bent);
+const npy = direct.writeImage(bent);
 const ply = direct.writePly(hex);
 const drawing = direct.pattern(hex);
 const { positions, triangles } = direct.readMesh(ply);
@@ -68,10 +68,7 @@ const calls = {
   read: { args: { bytes: npy }, options: 'read' },
   formatOf: { args: { bytes: npy } },
   npzArrays: { args: { bytes: npy } },
-  writeNpy: { args: { input: bent } },
-  writePng: { args: { input: bent } },
-  writeTiff: { args: { input: bent } },
-  writeExr: { args: { input: bent } },
+  writeImage: { args: { input: bent }, options: 'writeImage' },
   writeObj: { args: { input: shaded }, options: 'writeObj' },
   writeMtl: { args: { picture: 'a.png' } },
   writePly: { args: { input: shaded } },
@@ -244,7 +241,7 @@ test('what loads the wasm takes anything', async () => {
       await survives(`new DevelopableWorker({ ${key}: ${what} })`, async () => {
         const worker = new promise.DevelopableWorker({ [key]: any });
         try {
-          await worker.writeNpy(bent);
+          await worker.writeImage(bent);
         } finally {
           worker.dispose();
         }

@@ -33,7 +33,7 @@ test('the direct API says which wasm file a format needs', async () => {
   const [tiff, npy] = [await data('f4.tif'), await data('f4-le.npy')];
   assert.throws(() => direct.read(tiff), error('NOT_INITIALIZED', /load\('images'\)/));
   assert.throws(() => direct.npzArrays(tiff), error('NOT_INITIALIZED', /load\('images'\)/));
-  assert.throws(() => direct.writeExr(image(3, 3, plane)), error('NOT_INITIALIZED', /load\('images'\)/));
+  assert.throws(() => direct.writeImage(image(3, 3, plane), { format: 'exr' }), error('NOT_INITIALIZED', /load\('images'\)/));
   loadSync({ images: await readFile(imagesWasmFile) });
   assert.equal(deviation(direct.read(tiff).data, holes), 0);
   assert.throws(() => direct.read(npy), error('NOT_INITIALIZED', /load\('files'\)/));
@@ -96,7 +96,7 @@ test('what is wrong with a file is an error', async () => {
 test('TIFF and EXR come back as they were written', async () => {
   const field = image(7, 5, (x, y) => Math.fround(x * x + 0.1 * y), 0.25);
   field.data[9] = NaN;
-  for (const bytes of [direct.writeTiff(field), direct.writeExr(field), await developable.writeTiff(field), await developable.writeExr(field)]) {
+  for (const bytes of [direct.writeImage(field, { format: 'tiff' }), direct.writeImage(field, { format: 'exr' }), await developable.writeImage(field, { format: 'tiff' }), await developable.writeImage(field, { format: 'exr' })]) {
     const back = direct.read(bytes);
     assert.deepEqual([back.width, back.height, back.pixelSize, back.dataType], [7, 5, 0.25, 'f32']);
     assert.equal(deviation(back.data, field.data), 0);
@@ -119,8 +119,8 @@ const developableCommand = (line) => run(folder, line.split(' '));
 
 test('the command reads and writes them', async () => {
   const field = image(12, 10, (x, y) => Math.fround(plane(x, y)), 0.5);
-  await writeFile(join(folder, 'plane.tif'), direct.writeTiff(field));
-  await writeFile(join(folder, 'mask.exr'), direct.writeExr({ ...field, data: field.data.map((_, i) => (i < 24 ? 0 : 1)) }));
+  await writeFile(join(folder, 'plane.tif'), direct.writeImage(field, { format: 'tiff' }));
+  await writeFile(join(folder, 'mask.exr'), direct.writeImage({ ...field, data: field.data.map((_, i) => (i < 24 ? 0 : 1)) }, { format: 'exr' }));
   for (const output of ['out.tif', 'out.tiff', 'out.exr']) {
     const { status, stderr } = await developableCommand(`fit plane.tif -o ${output} --mask mask.exr`);
     assert.equal(status, 0, stderr);
@@ -143,7 +143,7 @@ test('the command tells what is in a file', async () => {
     /^no data: +1 pixels$/m, /^pixel size: +0\.5 m$/m, /^height scale: +1$/m,
   ]) assert.match(tiff.stdout, line);
   // Of levels, what they stand for.
-  await writeFile(join(folder, 'steps.png'), direct.writePng({ width: 3, height: 2, data: [1, 2, 3, 4, 5, 6] }));
+  await writeFile(join(folder, 'steps.png'), direct.writeImage({ width: 3, height: 2, data: [1, 2, 3, 4, 5, 6] }, { format: 'png' }));
   assert.match((await developableCommand('info steps.png')).stdout, /^heights: +1 to 6$/m);
   const refused = await developableCommand('info colour.jpg');
   assert.deepEqual([refused.status, refused.stdout], [3, '']);
@@ -159,7 +159,7 @@ test('a size of pixels that is given is the one that is solved with and written'
   const georeference = { transformation: [0.5, 0, 4e5, 0, -0.6, 5.4e6], keys: [1, 1, 0, 2, 1024, 0, 1, 1, 3076, 0, 1, 9001], doubles: [], text: '' };
   const field = image(24, 20, (x, y) => Math.fround(plane(x, y)));
   // Without a size of its own the image has that of the map.
-  await writeFile(join(folder, 'map.tif'), direct.writeTiff({ ...field, pixelSize: undefined, georeference }));
+  await writeFile(join(folder, 'map.tif'), direct.writeImage({ ...field, pixelSize: undefined, georeference }, { format: 'tiff' }));
   const told = direct.read(await readFile(join(folder, 'map.tif')), { pixelSize: 2 });
   assert.deepEqual([told.width, told.height, told.pixelSize, told.unit], [24, 20, 2, 'm']);
   const fit = await developableCommand('fit map.tif -o two.tif --pixel-size 2');

@@ -13,9 +13,9 @@ import { cylinder, image, lattice, plane } from './support/shapes.mjs';
 await direct.init();
 await direct.load('files', 'meshes', 'fitmesh', 'unroll', 'patterns');
 const folder = await temporaryFolder();
-await writeFile(join(folder, 'a.npy'), direct.writeNpy(image(16, 16, cylinder(16))));
+await writeFile(join(folder, 'a.npy'), direct.writeImage(image(16, 16, cylinder(16))));
 await writeFile(join(folder, 'words.txt'), 'some words');
-await writeFile(join(folder, 'p.png'), direct.writePng(image(16, 16, cylinder(16))));
+await writeFile(join(folder, 'p.png'), direct.writeImage(image(16, 16, cylinder(16)), { format: 'png' }));
 await writeFile(join(folder, 'm.obj'), direct.writeObj(lattice(12, 12, plane)));
 
 /** @type {Record<string, import('../../pkg/cli/flags.js').FlagInfo>} */

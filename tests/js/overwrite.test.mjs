@@ -10,7 +10,7 @@ import { deviation, image, plane } from './support/shapes.mjs';
 await Promise.all([direct.init(), direct.load('files')]);
 const folder = await temporaryFolder();
 const ramp = image(24, 20, plane);
-const scan = direct.writeNpy(ramp);
+const scan = direct.writeImage(ramp);
 
 test('the input is replaced only with --force', async () => {
   const path = join(folder, 'scan.npy');

@@ -158,7 +158,7 @@ test('its own JavaScript is type-checked strictly', async () => {
 
 test('TypeScript users get types, with each kind of module resolution, and of the DOM or of Node alone', async () => {
   await writeFile(join(app, 'use.ts'), `
-    import { fit, open, read, example, writeNpy, init, DevelopableError, DevelopableWorker } from 'developable';
+    import { fit, open, read, example, writeImage, init, DevelopableError, DevelopableWorker } from 'developable';
     import type { Surface, Progress, FitOptions, ErrorCode, Report } from 'developable';
     import * as direct from 'developable/direct';
     import { initSync } from 'developable/sync';
@@ -176,7 +176,7 @@ test('TypeScript users get types, with each kind of module resolution, and of th
       // @ts-expect-error heights on the lattice have no pixels
       lattice.image.data;
       const here: number = direct.fit(input).image.width;
-      const blob = new Blob([await writeNpy(surface)]);
+      const blob = new Blob([await writeImage(surface)]);
       const heights: Float64Array = surface.heights;
       const codes: ErrorCode[] = ['SHAPE'];
       const report: Report = surface.report;

@@ -440,7 +440,7 @@ test('plans at several λ', async () => {
 
 test('the command', async () => {
   const folder = await temporaryFolder();
-  await writeFile(join(folder, 'card.npy'), direct.writeNpy(card));
+  await writeFile(join(folder, 'card.npy'), direct.writeImage(card));
   /** @param {string} args */
   const command = (args) => run(folder, args.split(' '));
   const silent = { status: 0, stdout: '', stderr: '' };
@@ -464,10 +464,10 @@ test('the command', async () => {
   near(fitted.sheets[0].folds[0].length, flat.height / scale, 0.01);
   assert.deepEqual(await command(`${from} -o made.svg --assembly made.glb --marks 20 --kerf 0.2`), silent);
   assert.equal(String(await readFile(join(folder, 'made.glb'))).slice(0, 4), 'glTF');
-  await writeFile(join(folder, 'pyramid.npy'), direct.writeNpy(pyramid));
+  await writeFile(join(folder, 'pyramid.npy'), direct.writeImage(pyramid));
   const { stderr } = await command('pattern pyramid.npy --lattice hex --as-is -o pyramid.svg');
   assert.match(stderr, /the angles of the pieces around a point differ .* by at most [\d.]+°/);
-  await writeFile(join(folder, 'small.npy'), direct.writeNpy(lattice(24, 20, (x) => -0.6 * Math.abs(x - 9.3))));
+  await writeFile(join(folder, 'small.npy'), direct.writeImage(lattice(24, 20, (x) => -0.6 * Math.abs(x - 9.3))));
   const small = 'pattern small.npy --lattice hex --no-data 1e9';
   const table = await command(`${small} --explore`);
   assert.equal(table.status, 0, table.stderr);

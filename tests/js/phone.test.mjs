@@ -115,7 +115,7 @@ test('the command takes what capture apps write', async () => {
   const coarse = photo({ ...photoCamera, width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 });
   const camera = { width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 };
   await writeFile(join(folder, 'photo.png'), direct.writePhoto(coarse));
-  await writeFile(join(folder, 'depth.exr'), direct.writeExr({ width, height, data }));
+  await writeFile(join(folder, 'depth.exr'), direct.writeImage({ width, height, data }, { format: 'exr' }));
   // The photo's matrix by rows, as a calibration has it; by columns, with the size; plain numbers of the depths.
   await writeFile(join(folder, 'camera_matrix.csv'), '1025.0, 0.0, 632.0\n0.0, 1025.0, 487.0\n0.0, 0.0, 1.0\n');
   await writeFile(join(folder, 'metadata.json'), JSON.stringify({ w: 1280, h: 960, K: [1025, 0, 0, 0, 1025, 0, 632, 487, 1] }));
@@ -147,7 +147,7 @@ test('the command takes what capture apps write', async () => {
   assert.ok(largest <= 0.26 && Math.abs(largest - stated.maximum) < 0.002 && stated.rms < stated.maximum, `${largest} ${stated.maximum}`);
   assert.doesNotMatch(full.stderr, /rim/);
   // With the table around it, at the page's own height, it is no page that is made flat, and that is said.
-  await writeFile(join(folder, 'table.exr'), direct.writeExr({ width, height, data: data.map((depth) => depth || 0.44) }));
+  await writeFile(join(folder, 'table.exr'), direct.writeImage({ width, height, data: data.map((depth) => depth || 0.44) }, { format: 'exr' }));
   const table = ['dewarp', 'table.exr', '--intrinsics', 'transforms.json', ...common, '-o', 'page.png'];
   const all = await run(folder, table);
   assert.equal(all.status, 0, all.stderr);
@@ -158,7 +158,7 @@ test('the command takes what capture apps write', async () => {
   assert.ok((await loss()) < 0.015, String(await loss()));
   // A quarter of the page is covered, and a part of that is within the 6 % by which the sheet is continued.
   const covered = data.map((depth, i) => (i % width < 126 && i < 97 * width ? 0 : depth || 0.44));
-  await writeFile(join(folder, 'table.exr'), direct.writeExr({ width, height, data: covered }));
+  await writeFile(join(folder, 'table.exr'), direct.writeImage({ width, height, data: covered }, { format: 'exr' }));
   for (const trim of [[], ['--trim']]) {
     assert.match((await run(folder, [...cropped, ...trim])).stderr, /\d\d % of the page between the corners of --crop is missing/);
     assert.ok((await loss()) > 0.13 && (await loss()) < 0.25, String(await loss()));
@@ -192,9 +192,9 @@ test('a curled page is a cylinder, found more exactly than any surface, and a de
 
   const folder = await temporaryFolder();
   await writeFile(join(folder, 'photo.png'), direct.writePhoto(photo(coarse)));
-  await writeFile(join(folder, 'depth.exr'), direct.writeExr(noisy));
+  await writeFile(join(folder, 'depth.exr'), direct.writeImage(noisy, { format: 'exr' }));
   const dent = data.map((depth, i) => depth && depth + 0.006 * Math.exp(-(((i % width) - 120) ** 2 + (Math.floor(i / width) - 100) ** 2) / 800));
-  await writeFile(join(folder, 'dented.exr'), direct.writeExr({ width, height, data: dent }));
+  await writeFile(join(folder, 'dented.exr'), direct.writeImage({ width, height, data: dent }, { format: 'exr' }));
   /** @param {string} file @param {...string} more */
   const dewarped = async (file, ...more) => {
     const done = await run(folder, [
@@ -221,7 +221,7 @@ test('a part of the photo, with straight edges, and no table beside it', async (
   const folder = await temporaryFolder();
   // A table behind the page, as a depth camera sees it.
   const { data } = depths();
-  await writeFile(join(folder, 'depth.exr'), direct.writeExr({ width, height, data: data.map((depth) => depth || 0.55) }));
+  await writeFile(join(folder, 'depth.exr'), direct.writeImage({ width, height, data: data.map((depth) => depth || 0.55) }, { format: 'exr' }));
   await writeFile(join(folder, 'photo.png'), direct.writePhoto(photo(coarse)));
   const corners = cornersAt(0.1, 0.9);
   const command = async (/** @type {string[]} */ ...args) => {
@@ -347,7 +347,7 @@ test('confidences and masks of depths, of any size', async () => {
 
 test('the command takes confidences and masks with depths', async () => {
   const folder = await temporaryFolder();
-  await writeFile(join(folder, 'depth.exr'), direct.writeExr({ width, height, data: depths().data }));
+  await writeFile(join(folder, 'depth.exr'), direct.writeImage({ width, height, data: depths().data }, { format: 'exr' }));
   const grey = (/** @type {number} */ cols, /** @type {number} */ rows, /** @type {(i: number) => number} */ value) =>
     direct.writePhoto({
       width: cols, height: rows, data: Uint8ClampedArray.from({ length: 4 * cols * rows }, (_, i) => (i % 4 === 3 ? 255 : value(i >> 2))),
@@ -381,7 +381,7 @@ test('depths that lie as the sensor does, and a photo that was turned', async ()
   const folder = await temporaryFolder();
   const coarse = photo({ ...photoCamera, width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 });
   const jpeg = direct.writePhoto(coarse, { format: 'jpeg', quality: 95 });
-  await writeFile(join(folder, 'depth.exr'), direct.writeExr({ width, height, data: depths().data }));
+  await writeFile(join(folder, 'depth.exr'), direct.writeImage({ width, height, data: depths().data }, { format: 'exr' }));
   await writeFile(join(folder, 'upright.jpg'), withExif(jpeg, { orientation: 6 }));
   await writeFile(join(folder, 'bare.jpg'), direct.writePhoto(onItsSide(coarse), { format: 'jpeg', quality: 95 }));
   await writeFile(join(folder, 'over.jpg'), withExif(jpeg, { orientation: 3 }));

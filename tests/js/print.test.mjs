@@ -189,7 +189,7 @@ test('the command writes pages in true size', async () => {
   const { data } = depths();
   const coarse = taken({ ...photoCamera, width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 });
   await writeFile(join(folder, 'photo.png'), direct.writePhoto(coarse));
-  await writeFile(join(folder, 'depth.exr'), direct.writeExr({ width: cols, height: rows, data }));
+  await writeFile(join(folder, 'depth.exr'), direct.writeImage({ width: cols, height: rows, data }, { format: 'exr' }));
   await writeFile(join(folder, 'camera.json'), JSON.stringify({ fx: 205, fy: 205, cx: 126, cy: 97, width: 256, height: 192 }));
   const common = ['--texture', 'photo.png', '--lambda', 'big', '--view', 'best-fit'];
   const fromDepth = ['dewarp', 'depth.exr', '--intrinsics', 'camera.json', ...common];
@@ -211,7 +211,7 @@ test('the command writes pages in true size', async () => {
   assert.equal(pngDensity(await readFile(join(folder, 'page.png'))), 2000);
 
   // Heights in whatever unit, and with one.
-  await writeFile(join(folder, 'heights.npy'), direct.writeNpy({ width: 64, height: 48, data: new Float32Array(64 * 48) }));
+  await writeFile(join(folder, 'heights.npy'), direct.writeImage({ width: 64, height: 48, data: new Float32Array(64 * 48) }));
   const fromHeights = ['dewarp', 'heights.npy', '--texture', 'photo.png', '-o', 'page.pdf'];
   const unknown = await run(folder, fromHeights);
   assert.equal(unknown.status, 2);

@@ -22,8 +22,8 @@ const folder = await temporaryFolder();
 const FILE = "Tom's $HOME (1).tiff";
 const ramp = image(24, 20, plane);
 ramp.data[50] = 0;
-await writeFile(join(folder, FILE), direct.writeTiff(ramp));
-await writeFile(join(folder, '-ramp.npy'), direct.writeNpy(ramp));
+await writeFile(join(folder, FILE), direct.writeImage(ramp, { format: 'tiff' }));
+await writeFile(join(folder, '-ramp.npy'), direct.writeImage(ramp));
 
 /** @type {Settings} */
 const defaults = { lambda: 'auto', gap: 0.01, coarsening: 1, energy: 'huber', occlusionThreshold: undefined };

@@ -99,7 +99,7 @@ const results = [
   ['DewarpedPage', () => direct.dewarpPage(page, { top: edge(100), bottom: edge(560) }, { focalLength: 480, page: 'a4', grid: true })],
   ['FlatPage', () => direct.flattenPhoto(page, direct.dewarpPage(page, { top: edge(100), bottom: edge(560) }, { focalLength: 480 }))],
   ['SampledMesh', () => direct.sampleMesh(mesh)],
-  ['ReadResult', () => direct.read(direct.writeNpy(scan))],
+  ['ReadResult', () => direct.read(direct.writeImage(scan))],
   ['DecodedPhoto', () => direct.readPhoto(direct.writePhoto(photo))],
   ['Example', () => direct.example('cone', { size: 20 })],
 ];

@@ -4,7 +4,7 @@ import { cp, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import * as direct from '../../pkg/direct.js';
-import { DevelopableWorker, dispose, fit, read, writeNpy } from '../../pkg/index.js';
+import { DevelopableWorker, dispose, fit, read, writeImage } from '../../pkg/index.js';
 import { asDepthOptions } from '../../pkg/depth-input.js';
 import { run, runProcess, temporaryFolder } from './support/command.mjs';
 import { pkg, root } from './support/paths.mjs';
@@ -62,7 +62,7 @@ test('a confidence that was read has the type of its file', () => {
 
 test('the command runs within a process, with streams of the caller', async () => {
   const folder = await temporaryFolder();
-  await writeFile(join(folder, 'bent.npy'), await writeNpy(bent));
+  await writeFile(join(folder, 'bent.npy'), await writeImage(bent));
   try {
     for (const threads of ['1', '2']) {
       const { status, stdout, stderr } = await run(folder, ['fit', 'bent.npy', '-o', 'flat.npy', '--lambda', 'big', '--threads', threads, '--report', 'r.json']);

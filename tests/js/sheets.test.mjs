@@ -136,7 +136,7 @@ test('photos from and to files', async () => {
 
 test('the commands', async () => {
   const folder = await temporaryFolder();
-  await writeFile(join(folder, 'scan.npy'), direct.writeNpy(page));
+  await writeFile(join(folder, 'scan.npy'), direct.writeImage(page));
   await writeFile(join(folder, 'photo.png'), direct.writePhoto(photo));
   const json = async (/** @type {string} */ name) => JSON.parse(await readFile(join(folder, name), 'utf8'));
   const silent = { status: 0, stdout: '', stderr: '' };

@@ -184,7 +184,7 @@ test('what is wrong is said', async () => {
 
 test('the command writes each by its ending', async () => {
   const folder = await temporaryFolder();
-  const heights = direct.writeNpy({ ...field, heights: field.heights.map((z) => (Number.isNaN(z) ? 9 : z)) });
+  const heights = direct.writeImage({ ...field, heights: field.heights.map((z) => (Number.isNaN(z) ? 9 : z)) });
   await writeFile(join(folder, 'in.npy'), heights);
   for (const name of ['ply', 'stl', 'glb', 'obj']) {
     const args = ['fit', 'in.npy', '--lattice', 'hex', '-o', `out.${name}`, '--no-data', '9'];

@@ -234,7 +234,7 @@ test('the command reads what lies beside a mesh, and nothing else', async () => 
 
 test('the command paints with a photo', async () => {
   const folder = await temporaryFolder();
-  await writeFile(join(folder, 'scan.npy'), direct.writeNpy({ width: 20, height: 16, data: new Float64Array(320).map((_, i) => (i % 20) / 9) }));
+  await writeFile(join(folder, 'scan.npy'), direct.writeImage({ width: 20, height: 16, data: new Float64Array(320).map((_, i) => (i % 20) / 9) }));
   for (const name of ['colour-tum.png', 'colour-tum.jpg', 'depth-tum.png']) await copyFile(place(name), join(folder, name));
   const silent = { status: 0, stdout: '', stderr: '' };
   /** @param {string} args */

@@ -159,7 +159,7 @@ test('a helper that does not start in time is left out', async () => {
 test('the command takes a number of threads', async () => {
   const values = Float32Array.from({ length: 150 * 150 }, (_, i) => Math.abs(i % 150 - 75) + Math.sin(i));
   await direct.load('files');
-  await writeFile(join(folder, 'in.npy'), direct.writeNpy({ width: 150, height: 150, data: Float64Array.from(values) }));
+  await writeFile(join(folder, 'in.npy'), direct.writeImage({ width: 150, height: 150, data: Float64Array.from(values) }));
   const args = ['fit', 'in.npy', '-o', 'out.npy', '--lambda', '1e6', '--report', 'report.json', '--threads'];
   const { status, stderr } = await runProcess(folder, [...args, '2']);
   assert.equal(status, 0, stderr);

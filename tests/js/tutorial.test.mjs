@@ -18,10 +18,10 @@ test('a tutorial that does what it says', async () => {
     const [u, v] = [Math.abs(x - 35.3), Math.abs(y - 30.4)];
     return 20 - 0.7 * Math.max(v, u - 12) + noise(x, y);
   });
-  await writeFile(join(folder, 'scan.tif'), direct.writeTiff(roof));
+  await writeFile(join(folder, 'scan.tif'), direct.writeImage(roof, { format: 'tiff' }));
   // A channel, for metal.
   const box = image(72, 60, (x) => 20 - 0.9 * Math.max(Math.abs(x - 35.3) - 14, 0));
-  await writeFile(join(folder, 'box.tif'), direct.writeTiff(box));
+  await writeFile(join(folder, 'box.tif'), direct.writeImage(box, { format: 'tiff' }));
   const text = await readFile(new URL('../../docs/patterns.md', import.meta.url), 'utf8');
   const commands = [...text.matchAll(/^```sh\n([\s\S]*?)^```/gm)].flatMap(([, lines]) => lines.trim().split('\n'));
   assert.equal(commands.length, 7);

@@ -3,7 +3,7 @@
 use developable::dewarp::Photo;
 use developable::files::images::{
     BookPage, BookWord, DecodeOptions, Format, PhotoOptions, decode, decode_photo, decode_with,
-    write_book, write_npy, write_photo, write_photo_jpeg, write_photo_pdf, write_png,
+    write_book, write_image, write_npy, write_photo, write_photo_jpeg, write_photo_pdf,
 };
 use developable::files::wavefront::write_obj;
 use developable::{
@@ -137,7 +137,7 @@ fn recorded_scales_are_used() {
 fn files_cut_short_anywhere_are_errors() {
     let image = HeightImage::new(4, 3, holes()).unwrap();
     let ours = [
-        write_png(&image).unwrap(),
+        write_image(&image, Format::Png, None).unwrap(),
         write_npy(3, 4, &holes()).unwrap(),
     ];
     let theirs = [
@@ -303,7 +303,7 @@ proptest! {
         let image = HeightImage::new(cols, values.len() / cols, values.clone())
             .and_then(|i| i.with_pixel_size(pixel_size))
             .unwrap();
-        let back = decode(&write_png(&image).unwrap(), None).unwrap();
+        let back = decode(&write_image(&image, Format::Png, None).unwrap(), None).unwrap();
         prop_assert_eq!(back.data_type, "u16");
         let back = back.into_image().unwrap();
         prop_assert_eq!(back.pixel_size(), pixel_size);
@@ -320,7 +320,7 @@ proptest! {
 fn flat_empty_and_extreme_images_survive_png() {
     let back = |values: &[f64]| {
         let image = HeightImage::new(values.len(), 1, values.to_vec()).unwrap();
-        let decoded = decode(&write_png(&image).unwrap(), None).unwrap();
+        let decoded = decode(&write_image(&image, Format::Png, None).unwrap(), None).unwrap();
         decoded.into_image().unwrap().into_values()
     };
     for z in [0.0, 7.25, -1e-20, 0.1, -123456.789, f64::MAX, 5e-324] {
@@ -342,7 +342,7 @@ fn flat_empty_and_extreme_images_survive_png() {
 #[test]
 fn another_reader_sees_our_png_as_plain_16_bit_grey() {
     let image = HeightImage::new(2, 2, vec![-1.0, 1.0, f64::NAN, 0.0]).unwrap();
-    let bytes = write_png(&image).unwrap();
+    let bytes = write_image(&image, Format::Png, None).unwrap();
     let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes))
         .read_info()
         .unwrap();

@@ -6,7 +6,9 @@ use ::tiff::encoder::colortype::{Gray8, Gray32Float};
 use ::tiff::encoder::{ImageEncoder, Rational, TiffEncoder, TiffKindStandard};
 use ::tiff::tags::{ResolutionUnit, Tag};
 use developable::files::Unit;
-use developable::files::images::{DecodeOptions, Decoded, decode, decode_with, write_tiff};
+use developable::files::images::{
+    DecodeOptions, Decoded, Format, decode, decode_with, write_image,
+};
 use developable::{HeightImage, Result};
 
 /// A file of 3 × 3 grey pixels for each kind of image, as the tag `NewSubfileType` numbers it.
@@ -201,7 +203,11 @@ fn a_tie_point_alone_is_kept() {
     let image = HeightImage::new(2, 2, vec![1.0, 2.0, 3.0, 4.0]).unwrap();
     let image = image.with_pixel_size(0.5).unwrap();
     for map in [map, None] {
-        let read = decode(&write_tiff(&image, map.as_ref()).unwrap(), None).unwrap();
+        let read = decode(
+            &write_image(&image, Format::Tiff, map.as_ref()).unwrap(),
+            None,
+        )
+        .unwrap();
         assert_eq!(read.georeference, map);
         assert_eq!(
             (read.pixel_size, read.height_scale, read.unit),

@@ -27,14 +27,14 @@ const shares = { roof: 1, cylinder: 1, cone: 0.724, oloid: 0.398, page: 0.606, h
  * @returns {Promise<Input>}
  */
 export async function exampleInput(folder, name, vertices, lattice = 'hex') {
-  const { example, init, load, writeNpy } = await import('../../pkg/direct.js');
+  const { example, init, load, writeImage } = await import('../../pkg/direct.js');
   await init();
   await load('files');
   // On square pixels there is one for each √3/2 vertices.
   const pixels = lattice === 'hex' ? vertices : vertices * Math.sqrt(0.75);
   const size = Math.round(Math.sqrt(pixels / shares[name]));
   const file = join(folder, `${name}-${size}.npy`);
-  await writeFile(file, writeNpy(example(name, { size, noise }).input));
+  await writeFile(file, writeImage(example(name, { size, noise }).input));
   // The longer side is 1 already, and other solvers know nothing of normalisation.
   return { file, name, lattice, spacing: 1 / size, noData: null, normalize: false };
 }

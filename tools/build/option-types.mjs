@@ -23,7 +23,7 @@ const MODULES = {
     depths: 'DepthOptions', paint: 'PaintOptions', dewarp: 'DewarpOptions', dewarpPage: 'DewarpPageOptions', flattenPhoto: 'FlattenPhotoOptions',
     writePhoto: 'WritePhotoOptions', writeBook: 'WriteBookOptions',
   },
-  file: { read: 'ReadOptions', readMesh: 'ReadMeshOptions', sampleMesh: 'SampleMeshOptions', example: 'ExampleOptions' },
+  file: { read: 'ReadOptions', writeImage: 'WriteImageOptions', readMesh: 'ReadMeshOptions', sampleMesh: 'SampleMeshOptions', example: 'ExampleOptions' },
 };
 
 /** The text of the file with the types of options. */

@@ -1,10 +1,14 @@
 /** What a result of heights is saved as: a 3D file, sheets to cut out. */
+import { IMAGE_FILES } from '../../pkg/schema/image-files.js';
 import { percent, shortLambda } from '../format.js';
-import { FORMAT_WORDS, MESH_FIT_WORDS } from '../messages.js';
+import { MESH_FIT_WORDS } from '../messages.js';
 import { longerSide, cutSheets, lengthUnitOf } from '../pattern.js';
 import { offerSurface } from '../solid.js';
 import { latticePositions } from '../surface/lattice.js';
 import { offerSheets } from './sheets.js';
+
+/** The formats of heights. */
+const imageFiles = /** @type {[import('../../pkg/schema/image-files.js').ImageFile, { type: string, about: string }][]} */ (Object.entries(IMAGE_FILES));
 
 /**
  * Offers the result as a file: images have the pixels of the input, meshes the vertices of the lattice.
@@ -16,12 +20,9 @@ export function offerFile(api, result) {
   offerSurface(api, {
     stem: fileStem(result), surface, positions: latticePositions(surface), unit: result.input.unit, onBase: true,
     mesh: async (worker) => worker.readMesh(new File([/** @type {Uint8Array<ArrayBuffer>} */ (await worker.writePly({ ...surface, frame: undefined, colors: undefined, uvs: undefined }))], 'surface.ply')),
-    further: [
-      { value: 'png', name: 'PNG', words: FORMAT_WORDS.png16, type: 'image/png', write: (worker) => worker.writePng(image) },
-      { value: 'tiff', name: 'TIFF', words: FORMAT_WORDS.floats, type: 'image/tiff', write: (worker) => worker.writeTiff(image) },
-      { value: 'exr', name: 'EXR', words: FORMAT_WORDS.floats, type: 'image/x-exr', write: (worker) => worker.writeExr(image) },
-      { value: 'npy', name: 'NPY', words: FORMAT_WORDS.npy, type: 'application/octet-stream', write: (worker) => worker.writeNpy(image) },
-    ],
+    further: imageFiles.map(([format, { type, about }]) => ({
+      value: format, name: format.toUpperCase(), words: `heights as ${about}`, type, write: (worker) => worker.writeImage(image, { format }),
+    })),
   });
 }
 

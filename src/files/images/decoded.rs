@@ -27,14 +27,14 @@ pub struct Decoded {
     /// The pixel values as stored in the file (grey levels, numbers), row by row, top row first; NaN where there is no
     /// data. A PNG's recorded offset is contained, as `offset / height_scale`. Integers beyond 2⁵³ are rounded.
     pub values: Vec<f64>,
-    /// Side length of a pixel in `unit`, or in an unknown unit: as recorded by [`write_png`](super::write_png) and the
+    /// Side length of a pixel in `unit`, or in an unknown unit: as recorded by [`write_image`](super::write_image) and the
     /// like, or by a TIFF's resolution or GeoTIFF scale; else 1, unless that makes a slab or a needle of the heights, which is
     /// one of the assumptions.
     pub pixel_size: f64,
     /// The unit of `pixel_size`: millimetres if a TIFF has a resolution, metres if it lies on a map.
     pub unit: Option<Unit>,
     /// Factor from the stored values to heights: `height = values · height_scale`. For NPY, NPZ and numbers that are no levels it is
-    /// 1, or the scale that a PFM states; for PNG as recorded by [`write_png`](super::write_png); for a GeoTIFF as its tags say, else
+    /// 1, or the scale that a PFM states; for PNG as recorded by [`write_image`](super::write_image); for a GeoTIFF as its tags say, else
     /// metres. For the levels of other pictures, of 8 or 16 bits, it is a suggestion, which is one of the assumptions: the one that makes their
     /// full range (from black to white) a quarter of the image's longer side.
     pub height_scale: f64,

@@ -32,6 +32,7 @@ mod square_pixels;
 
 use crate::error::Result;
 use crate::files::failure::{in_format, not_read, unsupported};
+use crate::heights::heightfield::HeightImage;
 
 pub use super::image_format::{FORMAT_NAMES, Format};
 pub use super::kind::{announced, format_name};
@@ -39,7 +40,7 @@ pub use decode_options::DecodeOptions;
 pub use decoded::Decoded;
 pub use depths::DepthEvidence;
 #[cfg(feature = "images")]
-pub use extended::{NpzArray, npz_arrays, write_exr, write_tiff};
+pub use extended::{NpzArray, npz_arrays};
 pub use georeference::Georeference;
 pub use npy::write_npy;
 pub use page_words::BookWord;
@@ -47,7 +48,6 @@ pub use page_words::BookWord;
 pub use photo::decode_other_photo;
 pub use photo::{PhotoFile, decode_photo, decode_photo_basic};
 pub use photo_pdf::{BookPage, write_book, write_photo_pdf};
-pub use png::write_png;
 pub use print::{PhotoOptions, PhotoRows, write_photo, write_photo_jpeg};
 
 /// Decodes the heights in an image file of the given format (`None`: the format that the file's first bytes announce).
@@ -131,6 +131,45 @@ pub fn decode_basic(
     let stored = stored.map_err(in_format(found))?;
     options.check(found)?;
     stored.finish(found, options)
+}
+
+/// Writes heights to a file of the given format; NaN is no data. [`decode`] gives the pixel size back, but from NPY.
+///
+/// - **NPY**: 64-bit floats, exact.
+/// - **PNG**: 16-bit grey. Text chunks record scale, offset, pixel size and the level of no data, so that [`decode`] gives
+///   back every height to 1/131068 of their range.
+///
+/// With the cargo feature `images`:
+///
+/// - **TIFF**: heights rounded to 32-bit floats, uncompressed, with the georeference if there is one.
+/// - **EXR**: heights rounded to 32-bit floats in one channel `Z`, compressed without loss.
+///
+/// # Errors
+/// [`Error::Unsupported`](crate::Error::Unsupported) for other formats, [`Error::NotFinite`](crate::Error::NotFinite) for heights
+/// that 32-bit floats cannot hold, [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+#[cfg_attr(not(feature = "images"), expect(unused_variables))]
+pub fn write_image(
+    image: &HeightImage,
+    format: Format,
+    map: Option<&Georeference>,
+) -> Result<Vec<u8>> {
+    match format {
+        #[cfg(feature = "images")]
+        other if !other.is_basic() => extended::write(image, other, map),
+        basic => write_basic(image, basic),
+    }
+}
+
+/// Writes heights to a PNG or NPY file, and links the writers of these two formats only.
+///
+/// # Errors
+/// As [`write_image`].
+pub fn write_basic(image: &HeightImage, format: Format) -> Result<Vec<u8>> {
+    match format {
+        Format::Png => png::write_png(image),
+        Format::Npy => write_npy(image.height(), image.width(), image.values()),
+        _ => Err(unsupported(format, "it is not written here")),
+    }
 }
 
 #[cfg(test)]

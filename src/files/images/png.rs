@@ -153,10 +153,7 @@ pub(super) fn failed(error: DecodingError) -> Error {
 /// [`decode`](super::decode) gives back every height to half a level, which is
 /// 1/131068 of the height range (and to the rounding of 64-bit floats, where
 /// the range is tiny beside the heights). Other programs see plain grey levels.
-///
-/// # Errors
-/// [`Error::OutOfMemory`].
-pub fn write_png(image: &HeightImage) -> Result<Vec<u8>> {
+pub(super) fn write_png(image: &HeightImage) -> Result<Vec<u8>> {
     let (scale, offset) = quantisation(image.values());
     let mut samples = try_filled("PNG image", 2 * image.values().len(), 0u8)?;
     for (sample, z) in samples.chunks_exact_mut(2).zip(image.values()) {

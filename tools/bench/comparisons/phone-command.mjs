@@ -3,7 +3,7 @@ import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
-import { init, load, writePhoto, writeTiff } from '../../../pkg/direct.js';
+import { init, load, writeImage, writePhoto } from '../../../pkg/direct.js';
 import { command } from '../../../tests/js/support/command.mjs';
 import { Problem } from '../../util/problem.mjs';
 import { run } from '../../util/process.mjs';
@@ -69,7 +69,7 @@ async function capture(folder) {
   await writeFile(join(folder, 'photo.jpg'), await jpeg(writePhoto(photo), photo));
   const { width, height, data } = sensed(upright, pose, depthCamera, 1);
   const metres = data.map((depth) => (depth === 0 ? NaN : depth / 1000));
-  await writeFile(join(folder, 'depth.tif'), writeTiff({ width, height, data: metres }));
+  await writeFile(join(folder, 'depth.tif'), writeImage({ width, height, data: metres }, { format: 'tiff' }));
   await writeFile(join(folder, 'camera.json'), JSON.stringify(camera));
   const space = seenFrom(upright, pose);
   const edge = (/** @type {number} */ v) =>

@@ -1,11 +1,13 @@
-//! Options of reading an image file, from JavaScript, and the file's contents, to JavaScript.
+//! Image files: options of reading one, its contents, and writing one.
 
-use js_sys::{Float64Array, Uint8ClampedArray};
+use js_sys::{Float64Array, Uint8Array, Uint8ClampedArray};
 use serde::{Deserialize, Serialize, Serializer};
 use serde_wasm_bindgen::{preserve, to_value};
 use wasm_bindgen::prelude::*;
 
 use super::Result;
+use super::fields::ImageInput;
+use developable::HeightImage;
 use developable::files::images::{
     DecodeOptions, Decoded, DepthEvidence, Format, Georeference, PhotoFile,
 };
@@ -131,4 +133,14 @@ pub fn photo_output(photo: &PhotoFile) -> Result<JsValue> {
         orientation: (photo.orientation != 1).then_some(photo.orientation),
         assumptions: &photo.assumptions,
     })?)
+}
+
+/// Writes JavaScript's height image by a function of the library.
+pub fn written(
+    image: ImageInput,
+    format: &str,
+    write: impl FnOnce(&HeightImage, Format) -> developable::Result<Vec<u8>>,
+) -> Result<Uint8Array> {
+    let file = write(&image.into_image()?, format.parse()?)?;
+    Ok(file.as_slice().into())
 }

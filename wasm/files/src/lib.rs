@@ -10,14 +10,14 @@ use developable::checks::{check_count, check_photo};
 use developable::dewarp::{self, Extent};
 use developable::files::images::{
     BookPage, BookWord, PhotoOptions, PhotoRows, decode_basic, decode_photo_basic, format_name,
-    write_book, write_npy, write_photo, write_photo_jpeg, write_photo_pdf, write_png,
+    write_basic, write_book, write_photo, write_photo_jpeg, write_photo_pdf,
 };
 use developable::files::wavefront::{write_mtl, write_obj};
 use developable_wasm::Result;
 use developable_wasm::arrays::filled;
 use developable_wasm::bytes::copied;
-use developable_wasm::fields::{ImageInput, LatticeInput};
-use developable_wasm::file::{ReadOptions, output, photo_output};
+use developable_wasm::fields::LatticeInput;
+use developable_wasm::file::{ReadOptions, output, photo_output, written};
 use developable_wasm::options::read as read_options;
 use developable_wasm::photo::{Pixels, extent_from};
 use developable_wasm::triangulation::mesh_of;
@@ -36,28 +36,10 @@ pub fn format_of(bytes: &Uint8Array) -> Result<Option<String>> {
     Ok(format_name(&copied(bytes)?).map(String::from))
 }
 
-/// Writes the heights of a height image to an NPY file.
-#[wasm_bindgen(js_name = writeImageNpy)]
-pub fn write_image_npy(image: JsValue) -> Result<Uint8Array> {
-    let image = from_value::<ImageInput>(image)?.into_image()?;
-    let file = write_npy(image.height(), image.width(), image.values())?;
-    Ok(file.as_slice().into())
-}
-
-/// Writes the heights at a lattice's vertices to an NPY file.
-#[wasm_bindgen(js_name = writeLatticeNpy)]
-pub fn write_lattice_npy(field: JsValue) -> Result<Uint8Array> {
-    let field = from_value::<LatticeInput>(field)?.into_heightfield()?;
-    let lattice = field.lattice();
-    let file = write_npy(lattice.rows(), lattice.cols(), field.heights())?;
-    Ok(file.as_slice().into())
-}
-
-/// Writes the heights of a height image to a 16-bit PNG file.
-#[wasm_bindgen(js_name = writePng)]
-pub fn write_png_file(image: JsValue) -> Result<Uint8Array> {
-    let image = from_value::<ImageInput>(image)?.into_image()?;
-    Ok(write_png(&image)?.as_slice().into())
+/// Writes heights to a PNG or NPY file.
+#[wasm_bindgen(js_name = writeImage)]
+pub fn write_image(image: JsValue, format: &str) -> Result<Uint8Array> {
+    written(from_value(image)?, format, write_basic)
 }
 
 /// Options of writing an OBJ file: JavaScript's `WriteObjOptions` object.

@@ -5,13 +5,11 @@ use serde::Serialize;
 use serde_wasm_bindgen::{from_value, to_value};
 use wasm_bindgen::prelude::*;
 
-use developable::files::images::{
-    Format, announced, decode_other_photo, extended, npz_arrays, write_exr, write_tiff,
-};
+use developable::files::images::{Format, announced, decode_other_photo, extended, npz_arrays};
 use developable_wasm::Result;
 use developable_wasm::bytes::copied;
 use developable_wasm::fields::ImageInput;
-use developable_wasm::file::{ReadOptions, output, photo_output};
+use developable_wasm::file::{ReadOptions, output, photo_output, written};
 use developable_wasm::options::read;
 
 /// Decodes a file of heights of any format except PNG and NPY; returns JavaScript's `ReadResult` object.
@@ -61,23 +59,15 @@ pub fn arrays(bytes: &Uint8Array) -> Result<JsValue> {
     Ok(to_value(&arrays)?)
 }
 
-/// Writes the heights of a height image to a TIFF file, with its georeference if it has one, which says the size of pixels where
-/// the image does not.
-#[wasm_bindgen(js_name = writeTiff)]
-pub fn write_tiff_file(image: JsValue) -> Result<Uint8Array> {
+/// Writes heights to a file of a format other than PNG and NPY. The georeference says the size of pixels where the image does not.
+#[wasm_bindgen(js_name = writeImage)]
+pub fn write_image(image: JsValue, format: &str) -> Result<Uint8Array> {
     let mut input = from_value::<ImageInput>(image)?;
     let map = input.georeference.take();
     if let (Some(map), None) = (&map, input.pixel_size) {
         input.pixel_size = Some(map.pixel_size((input.width, input.height)));
     }
-    Ok(write_tiff(&input.into_image()?, map.as_ref())?
-        .as_slice()
-        .into())
-}
-
-/// Writes the heights of a height image to an EXR file.
-#[wasm_bindgen(js_name = writeExr)]
-pub fn write_exr_file(image: JsValue) -> Result<Uint8Array> {
-    let image = from_value::<ImageInput>(image)?.into_image()?;
-    Ok(write_exr(&image)?.as_slice().into())
+    written(input, format, |image, format| {
+        extended::write(image, format, map.as_ref())
+    })
 }

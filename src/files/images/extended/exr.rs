@@ -246,14 +246,8 @@ fn failed(error: ExrError) -> Error {
     }
 }
 
-/// Writes a height image as an OpenEXR file: one channel `Z` of 32-bit floats, NaN where there is no data, compressed
-/// without loss. Exact for heights that are 32-bit floats; others are rounded to the nearest one.
-///
-/// An attribute of the file records the pixel size, so that [`decode`](crate::files::images::decode) gives it back.
-///
-/// # Errors
-/// [`Error::NotFinite`] for heights beyond 3.4·10³⁸, [`Error::OutOfMemory`].
-pub fn write_exr(image: &HeightImage) -> Result<Vec<u8>> {
+/// Writes a height image as an OpenEXR file, of which an attribute records the pixel size.
+pub(super) fn write_exr(image: &HeightImage) -> Result<Vec<u8>> {
     let heights = narrowed("EXR image", image)?;
     // Blocks that do not shrink are stored as they are, each with a few bytes of its own.
     let enough = 4 * heights.len() + 32 * image.height() + 4096;

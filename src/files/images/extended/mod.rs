@@ -1,4 +1,4 @@
-//! Decoders of height and depth images other than PNG and NPY.
+//! Height and depth images other than PNG and NPY.
 
 mod colmap;
 mod exr;
@@ -15,14 +15,14 @@ pub(super) mod webp;
 
 use super::decode_options::DecodeOptions;
 use super::decoded::Decoded;
+use super::georeference::Georeference;
 use super::photo::decode_other_photo;
 use crate::error::Result;
-use crate::files::failure::{in_format, not_read};
+use crate::files::failure::{in_format, not_read, unsupported};
 use crate::files::image_format::Format;
+use crate::heights::heightfield::HeightImage;
 
-pub use exr::write_exr;
 pub use npz::{NpzArray, npz_arrays};
-pub use tiff::write_tiff;
 
 /// Decodes the heights of a file that begins like one of the given image format.
 ///
@@ -45,4 +45,16 @@ pub fn decode(bytes: &[u8], format: Format, options: &DecodeOptions) -> Result<D
         Format::Png | Format::Npy => Err(not_read("it is decoded elsewhere")),
     };
     stored.map_err(in_format(format))?.finish(format, options)
+}
+
+/// Writes heights to a file of the given format.
+///
+/// # Errors
+/// As [`write_image`](super::write_image); [`Error::Unsupported`](crate::Error::Unsupported) for PNG and NPY.
+pub fn write(image: &HeightImage, format: Format, map: Option<&Georeference>) -> Result<Vec<u8>> {
+    match format {
+        Format::Tiff => tiff::write_tiff(image, map),
+        Format::Exr => exr::write_exr(image),
+        _ => Err(unsupported(format, "it is not written here")),
+    }
 }

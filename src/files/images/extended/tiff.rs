@@ -124,16 +124,10 @@ fn number_type(kind: DecodingSampleType) -> NumberType {
     }
 }
 
-/// Writes a height image as a TIFF file of 32-bit floats, uncompressed, which are NaN where there is no data (which
-/// `GDAL_NODATA` says too). Exact for heights that are 32-bit floats; others are rounded to the nearest one.
-///
-/// Tags record the pixel size, so that [`decode`](crate::files::images::decode) gives it back. A georeference is that of an image
+/// Writes a height image as a TIFF file, in which `GDAL_NODATA`, too, says that NaN is no data. A georeference is that of an image
 /// with as many pixels in metres; where its pixels have another size than those of the image, they get this size, and the first
 /// pixel stays in its place.
-///
-/// # Errors
-/// [`Error::NotFinite`] for heights beyond 3.4·10³⁸, [`Error::OutOfMemory`].
-pub fn write_tiff(image: &HeightImage, map: Option<&Georeference>) -> Result<Vec<u8>> {
+pub(super) fn write_tiff(image: &HeightImage, map: Option<&Georeference>) -> Result<Vec<u8>> {
     let heights = narrowed("TIFF image", image)?;
     // A strip has at least one row, and takes two numbers.
     let enough = 4 * heights.len() + 16 * image.height() + 4096;

@@ -31,14 +31,12 @@ async function mapIn(folder) {
   return { ...file, map: expanded(file) };
 }
 
-const coarse = { width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 };
-
-/** The place in the coarse photo of what lies at shares of the page's width and height. @param {number} s @param {number} t */
+/** The place in the photo of what lies at shares of the page's width and height. @param {number} s @param {number} t */
 function seenAt(s, t) {
   let best = [Infinity, 0, 0];
-  for (let row = 0; row < coarse.height; row += 2) {
-    for (let col = 0; col < coarse.width; col += 2) {
-      const found = meets(coarse, col, row);
+  for (let row = 0; row < photoCamera.height; row += 2) {
+    for (let col = 0; col < photoCamera.width; col += 2) {
+      const found = meets(photoCamera, col, row);
       const off = found ? Math.hypot(found[1] / 0.21 + 0.5 - s, found[2] / 0.297 + 0.5 - t) : Infinity;
       if (off < best[0]) best = [off, col, row];
     }
@@ -112,9 +110,7 @@ test('what cannot be is refused in plain words', () => {
 test('the command takes what capture apps write', async () => {
   const folder = await temporaryFolder();
   const { data } = depths();
-  const coarse = photo({ ...photoCamera, width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 });
-  const camera = { width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 };
-  await writeFile(join(folder, 'photo.png'), direct.writePhoto(coarse));
+  await writeFile(join(folder, 'photo.png'), direct.writePhoto(picture));
   await writeFile(join(folder, 'depth.exr'), direct.writeImage({ width, height, data }, { format: 'exr' }));
   // The photo's matrix by rows, as a calibration has it; by columns, with the size; plain numbers of the depths.
   await writeFile(join(folder, 'camera_matrix.csv'), '1025.0, 0.0, 632.0\n0.0, 1025.0, 487.0\n0.0, 0.0, 1.0\n');
@@ -125,7 +121,7 @@ test('the command takes what capture apps write', async () => {
     const done = await run(folder, ['dewarp', 'depth.exr', '--intrinsics', file, ...common, '-o', 'page.png', '--map', 'map.json']);
     assert.equal(done.status, 0, done.stderr);
     const flat = await mapIn(folder);
-    const error = displacement(camera, flat);
+    const error = displacement(photoCamera, flat);
     assert.ok(error < 0.003, `${file}: ${error}`);
   }
   // In full and on a grid.
@@ -191,7 +187,7 @@ test('a curled page is a cylinder, found more exactly than any surface, and a de
   await assert.rejects(developable.fitCylinder(held), error('INPUT', /constraints: leave them out/));
 
   const folder = await temporaryFolder();
-  await writeFile(join(folder, 'photo.png'), direct.writePhoto(photo(coarse)));
+  await writeFile(join(folder, 'photo.png'), direct.writePhoto(picture));
   await writeFile(join(folder, 'depth.exr'), direct.writeImage(noisy, { format: 'exr' }));
   const dent = data.map((depth, i) => depth && depth + 0.006 * Math.exp(-(((i % width) - 120) ** 2 + (Math.floor(i / width) - 100) ** 2) / 800));
   await writeFile(join(folder, 'dented.exr'), direct.writeImage({ width, height, data: dent }, { format: 'exr' }));
@@ -222,7 +218,7 @@ test('a part of the photo, with straight edges, and no table beside it', async (
   // A table behind the page, as a depth camera sees it.
   const { data } = depths();
   await writeFile(join(folder, 'depth.exr'), direct.writeImage({ width, height, data: data.map((depth) => depth || 0.55) }, { format: 'exr' }));
-  await writeFile(join(folder, 'photo.png'), direct.writePhoto(photo(coarse)));
+  await writeFile(join(folder, 'photo.png'), direct.writePhoto(picture));
   const corners = cornersAt(0.1, 0.9);
   const command = async (/** @type {string[]} */ ...args) => {
     const done = await run(folder, [
@@ -233,7 +229,7 @@ test('a part of the photo, with straight edges, and no table beside it', async (
   };
   await command('--report', 'report.json');
   const flat = await mapIn(folder);
-  const found = displacement(coarse, flat);
+  const found = displacement(photoCamera, flat);
   assert.ok(found < 0.004, String(found));
   // Eight tenths of the page, in metres; straight chords in the photo cut off some of the bent edges.
   const [wide, tall] = [flat.width / flat.resolution, flat.height / flat.resolution];
@@ -244,7 +240,7 @@ test('a part of the photo, with straight edges, and no table beside it', async (
   assert.ok(!page.map.includes(NaN));
   const size = [page.width / page.resolution / 0.21, page.height / page.resolution / 0.297];
   assert.ok(Math.abs(size[0] / 0.8 - 1) < 0.012 && size[1] > 0.75 && size[1] < 0.81, String(size));
-  assert.ok(displacement(coarse, page) < 0.004);
+  assert.ok(displacement(photoCamera, page) < 0.004);
   const image = direct.readPhoto(await readFile(join(folder, 'page.png')));
   assert.ok(image.data.every((value, i) => i % 4 < 3 || value === 255));
   const { parts } = JSON.parse(await readFile(join(folder, 'report.json'), 'utf8'));
@@ -260,14 +256,14 @@ test('what is seen behind a page, within its corners, is none of it', () => {
   // Straight lines between the corners of a page that is bent enclose some of what is behind.
   const far = { width, height, data: depths().data.map((depth) => depth || 0.68) };
   const crop = cornersAt(0, 1);
-  const mesh = direct.backProject(far, numbers, { crop, photo: coarse });
+  const mesh = direct.backProject(far, numbers, { crop, photo: photoCamera });
   const beyond = (/** @type {number} */ vertex) => mesh.positions[3 * vertex + 2] < -0.6;
   assert.ok(far.data.some((depth, i) => depth > 0.6 && i % width > 100), 'there is something behind');
   assert.equal(Array.from(mesh.triangles).filter(beyond).length, 0);
   const surface = direct.fit(direct.sampleMesh(mesh, { view: 'best-fit' }), { lambda: 'big' });
-  const flat = direct.dewarp(surface, photo(coarse), { crop });
+  const flat = direct.dewarp(surface, picture, { crop });
   assert.equal(flat.report.parts, 1);
-  assert.ok(displacement(coarse, flat) < 0.004, String(displacement(coarse, flat)));
+  assert.ok(displacement(photoCamera, flat) < 0.004, String(displacement(photoCamera, flat)));
 });
 
 test('mixtures of a page and what is behind it are none of it, though a mask ends where it does', () => {
@@ -332,7 +328,7 @@ test('confidences and masks of depths, of any size', async () => {
   const last = columns(direct.backProject(depths(), numbers, { mask: half, camera: aside }));
   assert.ok(last > 127 + 18 && last < 127 + 32, String(last));
   // Of a part of the photo.
-  const crop = /** @type {const} */ ([[0, 0], [1279.5, 0], [1279.5, 1920], [0, 1920]]);
+  const crop = /** @type {const} */ ([[0, 0], [639.5, 0], [639.5, 960], [0, 960]]);
   assert.equal(columns(direct.backProject(depths(), numbers, { crop, photo: picture })), 127);
 
   const given = (/** @type {object} */ options, pattern = /./, code = 'INPUT') =>
@@ -379,13 +375,12 @@ function onItsSide({ width: wide, height: tall, data }) {
 
 test('depths that lie as the sensor does, and a photo that was turned', async () => {
   const folder = await temporaryFolder();
-  const coarse = photo({ ...photoCamera, width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 });
-  const jpeg = direct.writePhoto(coarse, { format: 'jpeg', quality: 95 });
+  const jpeg = direct.writePhoto(picture, { format: 'jpeg', quality: 95 });
   await writeFile(join(folder, 'depth.exr'), direct.writeImage({ width, height, data: depths().data }, { format: 'exr' }));
   await writeFile(join(folder, 'upright.jpg'), withExif(jpeg, { orientation: 6 }));
-  await writeFile(join(folder, 'bare.jpg'), direct.writePhoto(onItsSide(coarse), { format: 'jpeg', quality: 95 }));
+  await writeFile(join(folder, 'bare.jpg'), direct.writePhoto(onItsSide(picture), { format: 'jpeg', quality: 95 }));
   await writeFile(join(folder, 'over.jpg'), withExif(jpeg, { orientation: 3 }));
-  await writeFile(join(folder, 'camera.json'), JSON.stringify({ fx: 1025, fy: 1025, cx: 632, cy: 487, width: 1280, height: 960 }));
+  await writeFile(join(folder, 'camera.json'), JSON.stringify(photoCamera));
   assert.deepEqual(direct.readPhoto(withExif(jpeg, { orientation: 6 })).orientation, 6);
   assert.equal(direct.readPhoto(jpeg).orientation, undefined);
   /** @param {string[]} args */
@@ -393,7 +388,6 @@ test('depths that lie as the sensor does, and a photo that was turned', async ()
     'dewarp', 'depth.exr', '--view', 'best-fit', '--lambda', 'big', '--dots', '1500', '-o', 'page.png', '--map', 'map.json', ...args,
   ]);
   // What a pixel of the turned photo shows, by where it was before.
-  const truth = { width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 };
   for (const args of [
     ['--texture', 'upright.jpg', '--intrinsics', 'camera.json'],
     ['--texture', 'upright.jpg', '--intrinsics', '205,205,126,97'],
@@ -408,7 +402,7 @@ test('depths that lie as the sensor does, and a photo that was turned', async ()
     // Back from the photo as it was turned to the one as it was stored.
     const map = flat.map.map((/** @type {number} */ _, /** @type {number} */ i) =>
       (i % 2 === 0 ? flat.map[i + 1] : 959 - flat.map[i - 1]));
-    const found = displacement(truth, { ...flat, map });
+    const found = displacement(photoCamera, { ...flat, map });
     assert.ok(found < 0.004, `${args}: ${found}`);
   }
   const refused = await command('--texture', 'bare.jpg', '--intrinsics', 'camera.json');

@@ -171,7 +171,7 @@ test('the unit goes from depths to the flat page', async () => {
   const surface = await developable.fit(seen, { lambda: 'big' });
   assert.deepEqual([mesh.unit, seen.unit, surface.unit, mesh.camera?.width, 'unit' in Object(mesh.camera)], ['m', 'm', 'm', cols, false]);
   assert.equal(rows, mesh.camera?.height);
-  const flat = await developable.dewarp(surface, taken({ ...photoCamera, width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 }));
+  const flat = await developable.dewarp(surface, taken(photoCamera));
   assert.equal(flat.unit, 'm');
   const { size } = await readPdfPicture(await developable.writePhoto(flat, { format: 'pdf' }));
   // The sheet ends up to two pixels of the depths within the page: 210 by 297 mm, at 0.43 m and f = 205.
@@ -187,7 +187,7 @@ test('the command writes pages in true size', async () => {
   const folder = await temporaryFolder();
   const { width: cols, height: rows } = depthCamera;
   const { data } = depths();
-  const coarse = taken({ ...photoCamera, width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 });
+  const coarse = taken(photoCamera);
   await writeFile(join(folder, 'photo.png'), direct.writePhoto(coarse));
   await writeFile(join(folder, 'depth.exr'), direct.writeImage({ width: cols, height: rows, data }, { format: 'exr' }));
   await writeFile(join(folder, 'camera.json'), JSON.stringify({ fx: 205, fy: 205, cx: 126, cy: 97, width: 256, height: 192 }));

@@ -8,8 +8,8 @@ export { depthCamera };
 
 const [radius, tilt, away] = [0.12, (25 * Math.PI) / 180, 0.43];
 const page = [0.21, 0.297];
-/** Of the camera beside the LiDAR, which shows the same, ten times as fine: `cx' + 1/2 = (cx + 1/2)·10`. */
-export const photoCamera = { width: 2560, height: 1920, fx: 2050, fy: 2050, cx: 1264.5, cy: 974.5 };
+/** Of the camera beside the LiDAR, which shows the same, five times as fine: `cx' + 1/2 = (cx + 1/2)·5`. */
+export const photoCamera = { width: 1280, height: 960, fx: 1025, fy: 1025, cx: 632, cy: 487 };
 
 /**
  * Where the ray of a pixel meets the page: how far ahead, and its arc from the middle and its height there, in metres.

@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { beforeEach, test } from 'node:test';
 import { batchOf } from '../../pkg/cli/batch.js';
 import * as direct from '../../pkg/direct.js';
-import { command, runProcess, temporaryFolder } from './support/command.mjs';
+import { command, run, runProcess, temporaryFolder } from './support/command.mjs';
 import { deviation, endless, image, plane } from './support/shapes.mjs';
 import { until } from './support/waiting.mjs';
 
@@ -23,7 +23,7 @@ beforeEach(async () => {
 });
 
 /** @param {string[]} args */
-const developable = (...args) => runProcess(folder, args);
+const developable = (...args) => run(folder, args);
 /** Names in a folder, without the fingerprints. @param {string} name */
 const made = async (name) => (await readdir(join(folder, name))).filter((file) => file !== '.developable');
 /** @param {string} name */

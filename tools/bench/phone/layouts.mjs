@@ -1,7 +1,6 @@
 /** Printed pages as they are, and not only columns of text: set by a browser, as large as a sheet of A4. */
 import { readPhoto } from '../../../pkg/direct.js';
 import { FINE, paragraphs, withBrowser } from './print.mjs';
-import { normal, uniform } from './sensor.mjs';
 import { greyOf } from './truth.mjs';
 
 /** @typedef {import('./sensor.mjs').Grey} Grey */
@@ -25,64 +24,14 @@ function table() {
   return `<table>${rows.join('')}</table>`;
 }
 
-/** Strokes as of a pen: loops along lines that wander, rise and drift apart. */
-function handwriting() {
-  const next = normal(5);
-  const lines = Array.from({ length: 15 }, (_, line) => {
-    const [rise, start] = [-0.02 + 0.012 * next(), 40 + 6 * next()];
-    const level = 190 + 100 * line;
-    let [x, d] = [150 + start, ''];
-    let wander = 0;
-    while (x < 1500 + 60 * next()) {
-      const letters = 2 + Math.floor(Math.abs(3 * next()) + 1);
-      d += `M${x} ${level + rise * x}`;
-      for (let k = 0; k < letters; k += 1) {
-        wander = 0.8 * wander + 3 * next();
-        const y = level + rise * x + wander;
-        const high = 24 + 12 * Math.abs(next()) + (next() > 1 ? 35 : 0);
-        const low = next() > 1.1 ? 34 : 0;
-        d += `C${x + 10} ${y - high} ${x + 26} ${y - high} ${x + 12} ${y + low}S${x + 20} ${y + 4} ${x + 28} ${y}`;
-        x += 28 + 3 * next();
-      }
-      x += 30;
-    }
-    return `<path d="${d}" fill="none" stroke="#223" stroke-width="5"/>`;
-  });
-  return `<svg viewBox="0 0 1750 1750" style="width: 100%; display: block">${lines.join('')}</svg>`;
-}
-
-/** Words in all directions. */
-function poster() {
-  const next = uniform(11);
-  const words = ['Market', 'in the old harbour', 'music', 'from nine', 'bread & apples', 'for everyone'].map((word, i) =>
-    `<div style="position: absolute; left: ${10 + 45 * next()}%; top: ${8 + 14 * i}%; font-size: ${dots(20 + 40 * next())}px;`
-    + ` transform: rotate(${-35 + 70 * next()}deg)">${word}</div>`);
-  return `<div style="position: relative; height: 100%">${words.join('')}<div style="position: absolute; bottom: 0; width: 100%">${picture}</div></div>`;
-}
-
 /** Each as its body, and the style of that. */
-export const LAYOUTS = /** @type {const} */ ({
+const LAYOUTS = /** @type {const} */ ({
   text: { style: `font: ${dots(11)}px/1.4 'DejaVu Serif', serif`, body: () => set(paragraphs(1, 11)) },
   columns: {
     style: `font: ${dots(9)}px/1.25 'Liberation Sans', sans-serif`,
     body: () => `<h1>Of sheets that were bent</h1><div class="columns"><div>${set(paragraphs(4, 5))}${picture}${set(paragraphs(5, 4))}</div>`
       + `<div><h2>What was measured</h2>${set(paragraphs(6, 2))}${table()}${set(paragraphs(7, 6))}</div></div>`,
   },
-  book: {
-    style: `font: ${dots(13)}px/1.55 'Liberation Serif', serif; text-align: justify; padding: ${dots(70)}px`,
-    body: () => `<h2>7. The gardener</h2>${set(paragraphs(8, 9))}`,
-  },
-  code: { style: `font: ${dots(8)}px/1.5 'DejaVu Sans Mono', monospace`, body: () => paragraphs(9, 14).map((text, i) =>
-    text.match(/.{1,50} /g)?.map((part, k) => `<div style="padding-left: ${dots(14 * ((i + k) % 4))}px">${part}</div>`).join('')).join('') },
-  form: {
-    style: `font: ${dots(10)}px/1.3 'Liberation Sans Narrow', sans-serif`,
-    body: () => `<h2>Request</h2>${table()}<p>${paragraphs(10, 1)}</p>${['Name', 'Street', 'Town', 'Date'].map((name) =>
-      `<div style="border-bottom: 3px solid #444; margin-top: ${dots(26)}px">${name}</div>`).join('')}${table()}`,
-  },
-  handwriting: { style: '', body: handwriting },
-  poster: { style: `font: ${dots(30)}px 'DejaVu Sans', sans-serif`, body: poster },
-  picture: { style: '', body: () => picture + picture.replaceAll('sky', 'sky2') },
-  blank: { style: '', body: () => '' },
 });
 
 /** @typedef {keyof typeof LAYOUTS} Layout */

@@ -1,5 +1,9 @@
-/** Height files written here, byte by byte, so that the page's readers are not tested with its own writers. */
-import { deflateSync } from 'node:zlib';
+/** Files of heights and meshes. */
+import { crc32, deflateSync } from 'node:zlib';
+import { init, load, writeImage, writePly } from '../../../pkg/direct.js';
+
+await init();
+await load('files', 'meshes');
 
 /** @typedef {{ name: string, bytes: Buffer }} File */
 
@@ -13,22 +17,8 @@ export function grid(width, height, value) {
   return Array.from({ length: width * height }, (_, i) => value(i % width, Math.floor(i / width)));
 }
 
-/**
- * NPY, version 1, little-endian 64-bit floats.
- * @param {number} width
- * @param {number[]} values
- */
-export function npy(width, values) {
-  const shape = `(${values.length / width}, ${width})`;
-  const text = `{'descr': '<f8', 'fortran_order': False, 'shape': ${shape}, }`;
-  const header = text.padEnd(Math.ceil((text.length + 11) / 64) * 64 - 11) + '\n';
-  const length = Buffer.alloc(2);
-  length.writeUInt16LE(header.length);
-  return Buffer.concat([
-    Buffer.from('\x93NUMPY\x01\x00', 'latin1'), length, Buffer.from(header, 'latin1'),
-    Buffer.from(Float64Array.from(values).buffer),
-  ]);
-}
+/** NPY of 64-bit floats. @param {number} width @param {number[]} values */
+export const npy = (width, values) => Buffer.from(writeImage({ width, height: values.length / width, data: values }));
 
 /**
  * The values of an NPY of 64-bit floats.
@@ -80,16 +70,6 @@ export function chunk(type, data) {
   return Buffer.concat([length, body, check]);
 }
 
-/** @param {Buffer} bytes */
-function crc32(bytes) {
-  let crc = ~0;
-  for (const byte of bytes) {
-    crc ^= byte;
-    for (let bit = 0; bit < 8; bit++) crc = (crc >>> 1) ^ (crc & 1 ? 0xedb88320 : 0);
-  }
-  return ~crc >>> 0;
-}
-
 /**
  * NPZ: a ZIP of stored NPY files.
  * @param {Record<string, Buffer>} arrays
@@ -134,15 +114,5 @@ export function obj({ points, triangles }) {
   return Buffer.from(`${lines.join('\n')}\n`);
 }
 
-/** PLY in text. @param {Mesh} mesh */
-export function ply({ points, triangles }) {
-  const lines = [
-    'ply', 'format ascii 1.0',
-    `element vertex ${points.length}`, 'property double x', 'property double y', 'property double z',
-    `element face ${triangles.length}`, 'property list uchar int vertex_indices',
-    'end_header',
-    ...points.map((point) => point.join(' ')),
-    ...triangles.map((corners) => `3 ${corners.join(' ')}`),
-  ];
-  return Buffer.from(`${lines.join('\n')}\n`);
-}
+/** PLY. @param {Mesh} mesh */
+export const ply = ({ points, triangles }) => Buffer.from(writePly({ positions: Float64Array.from(points.flat()), triangles: Uint32Array.from(triangles.flat()) }));

@@ -19,7 +19,7 @@ import { count, seconds } from './text.mjs';
 
 const wasmProgram = fileURLToPath(new URL('wasm.mjs', import.meta.url));
 const target = join(root, 'target/bench');
-const nativeProgram = programOf('developable-bench');
+const nativeProgram = join(target, 'release', process.platform === 'win32' ? 'developable-bench.exe' : 'developable-bench');
 
 /** @type {Omit<Settings, 'normalize'>} */
 const defaults = { lambda: 1e6, schedule: 'default', gap: 0.01, maxIterations: 20_000 };
@@ -33,22 +33,6 @@ export async function buildNative() {
   const args = ['build', '--release', '--manifest-path', manifest, '--target-dir', target];
   const { ok, failure } = await run('cargo', args, { env: native, cwd: root, show: true });
   if (!ok) throw new Problem(`The native benchmark was not built (${failure}): see what cargo says above.`);
-}
-
-/** @param {string} name */
-function programOf(name) {
-  return join(target, 'release', process.platform === 'win32' ? `${name}.exe` : name);
-}
-
-/**
- * What a native program prints that does all of a table's work by itself.
- * @param {string} name
- */
-export async function nativeOutput(name) {
-  const { ok, output, failure } = await run(programOf(name), [], { cwd: root, limit });
-  const result = output.split('\n').find((line) => line.startsWith('['));
-  if (!ok || !result) throw new Problem(`${name} gave nothing (${failure}): ${output}`);
-  return result;
 }
 
 export class Bench {

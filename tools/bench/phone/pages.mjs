@@ -52,7 +52,8 @@ export function profile(name, [width, height], direction, slope) {
 const zigzag = (t) => Math.abs(t - 2 * Math.round(t / 2));
 
 /**
- * A page of A4 crumpled into facets: Miura's fold, partly folded, as in `benches/src/bin/dewarping/page.rs`.
+ * A page of A4 crumpled into facets: Miura's fold of parallelograms, partly folded (M. Schenk, S. D. Guest, *Geometry of
+ * Miura-folded metamaterials*, PNAS 110(9), 2013, Eqs. 1–4).
  * @param {number} fold the facets' angle to the plane
  * @param {readonly [number, number]} [facet] sides of a facet, in widths of the page
  * @returns {Page}
@@ -80,7 +81,7 @@ export function crumpled(fold, facet = [0.31, 0.37]) {
 const degree = Math.PI / 180;
 const [wide, high] = A4;
 
-/** Along a curve, as in `benches/src/bin/dewarping/page.rs`. @param {number} p */
+/** Along a curve. @param {number} p */
 const curl = (p) => 0.75 * Math.sin((3.2 * p) / wide + 2);
 
 /** In thirds. @param {number} p */

@@ -8,6 +8,7 @@ import { noDataOf } from './import-interpretation.js';
  * @property {string} [card] id of a card of the gallery
  * @property {{ name: string, size: number, noise: number }} [example]
  * @property {number} [file] id of the file in the storage of recent files
+ * @property {import('./linked-file.js').LinkedFile} [linked] file that a link holds
  * @property {{ pixelSize?: number, heightScale?: number, noData?: NoData }} [stored] interpretation of the file
  * @property {Partial<Settings>} settings settings that differ from the defaults
  * @property {boolean} [whole] whether a whole mesh is fitted
@@ -25,7 +26,7 @@ const NUMERIC_SETTINGS = ['gap', 'coarsening', 'occlusionThreshold'];
  * @param {Readonly<Settings>} defaults
  * @returns {string} fragment with its #
  */
-export function addressOf({ card, example, file, stored, settings, whole, photo, unkept, view }, defaults) {
+export function addressOf({ card, example, file, linked, stored, settings, whole, photo, unkept, view }, defaults) {
   const parameters = new URLSearchParams();
   if (example) {
     parameters.set('example', example.name);
@@ -38,6 +39,7 @@ export function addressOf({ card, example, file, stored, settings, whole, photo,
     if (value === undefined || value === defaults[/** @type {keyof Settings} */ (name)]) continue;
     parameters.set(name, typeof value === 'number' && name === 'lambda' ? shortLambda(value) : String(value));
   }
+  for (const [name, value] of Object.entries(linked ?? {})) parameters.set(name, value);
   for (const [name, flag] of Object.entries({ unkept, photo, whole })) if (flag) parameters.set(name, '1');
   if (view && view !== 'shaded') parameters.set('view', view);
   return `#${[...(card ? [card] : []), ...(parameters.size > 0 ? [parameters] : [])].join('&')}`;
@@ -78,6 +80,7 @@ export function stateOf(hash) {
     card,
     example: name ? { name, size: positive('size') ?? 400, noise: Math.max(0, Number(parameters.get('noise') ?? 0.02)) || 0 } : undefined,
     file: positive('file'),
+    linked: parameters.has('data') ? { name: parameters.get('name') ?? 'file', data: parameters.get('data') ?? '' } : undefined,
     stored: Object.values(stored).some((value) => value !== undefined) ? stored : undefined,
     settings,
     whole,

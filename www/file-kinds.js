@@ -11,21 +11,6 @@ const COLMAP_CAMERAS = /^cameras\b[^.]*\.bin$/i;
 /** Names of the formats of meshes, which contents tell. */
 const MESH_FORMATS = ['obj', 'ply', 'stl', 'gltf', '3mf', 'off', 'xyz'];
 
-/** Endings of files that the page cannot read, with a description for the message. @type {readonly (readonly [RegExp, string])[]} */
-const UNREADABLE_KINDS = [
-  [/\.(docx?|odt|rtf|pages)$/i, 'a text document'],
-  [/\.(xlsx?|ods|numbers)$/i, 'a spreadsheet'],
-  [/\.(pptx?|odp|key)$/i, 'a presentation'],
-  [/\.(json|ya?ml|csv|xml|conf|ini)$/i, 'a text without heights; if it is a camera, open it together with its depths'],
-  [COLMAP_CAMERAS, 'cameras without depths; open it together with them'],
-  [/\.(txt|md|html?|log)$/i, 'a text'],
-  [/\.(zip|rar|7z|gz|tar)$/i, 'an archive; unpack it first'],
-  [/\.(mp4|mov|avi|mkv|webm)$/i, 'a video'],
-  [/\.(mp3|wav|m4a|flac)$/i, 'a sound'],
-  [/\.(dxf|dwg|svg|ai|eps)$/i, 'a drawing'],
-  [/\.(step|stp|iges|igs|fbx|dae|blend|skp|usdz?)$/i, 'a 3D file of a kind that is not read; export it as OBJ, STL, PLY or GLB'],
-];
-
 /** A file's name without its ending. @param {{ name: string }} file */
 export function stemOf({ name }) {
   return name.replace(/\.[^.]*$/, '');
@@ -44,18 +29,12 @@ export function isMeshFormat(format) {
   return format !== undefined && MESH_FORMATS.includes(format);
 }
 
-/** @typedef {'mesh' | 'heights' | 'picture' | 'camera' | 'other'} FileKind */
+/** @typedef {'mesh' | 'heights' | 'picture' | 'camera'} FileKind */
 
 /** @param {{ name: string }} file @returns {FileKind | null} null if the name does not tell */
 export function kindByName({ name }) {
   if (isMesh(name) || MATERIAL_ENDING.test(name)) return 'mesh';
   if (HEIGHTS_ENDING.test(name)) return 'heights';
   if (PICTURE_ENDING.test(name)) return 'picture';
-  if (CAMERA_ENDING.test(name) || COLMAP_CAMERAS.test(name)) return 'camera';
-  return UNREADABLE_KINDS.some(([ending]) => ending.test(name)) ? 'other' : null;
-}
-
-/** A description of a file that the page cannot read. @param {{ name: string }} file */
-export function unreadableKindInWords({ name }) {
-  return UNREADABLE_KINDS.find(([ending]) => ending.test(name))?.[1] ?? 'of a kind that is not read';
+  return CAMERA_ENDING.test(name) || COLMAP_CAMERAS.test(name) ? 'camera' : null;
 }

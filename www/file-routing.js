@@ -1,5 +1,5 @@
 /** What files that were opened together are: photos of pages, a mesh with its textures, or heights and depths with their photo and camera. */
-import { isMesh, kindByName, unreadableKindInWords } from './file-kinds.js';
+import { isMesh, kindByName } from './file-kinds.js';
 
 /**
  * @typedef {object} FileRoles
@@ -12,7 +12,7 @@ import { isMesh, kindByName, unreadableKindInWords } from './file-kinds.js';
 
 /**
  * @typedef {object} FileRoute
- * @property {'photos' | 'heights' | 'none'} to photos of pages; heights, depths or a mesh; or nothing that can be opened
+ * @property {'photos' | 'heights'} to photos of pages; heights, depths or a mesh, or what is none of these
  * @property {File[]} files the files that are opened
  * @property {File[]} left the files that do not belong to them
  */
@@ -45,13 +45,8 @@ export async function routeFiles(files, inPhotoMode) {
     const arePhotos = inPhotoMode || pictures.length > 1 || !/\.png$/i.test(pictures[0].name) || await isInColour(pictures[0]);
     return { to: arePhotos ? 'photos' : 'heights', files: pictures, left: without(pictures) };
   }
-  const readable = files.filter((file) => kindByName(file) !== 'other').slice(0, 1);
-  return { to: readable.length > 0 ? 'heights' : 'none', files: readable, left: without(readable) };
-}
-
-/** Names of files that were not opened, each with what it is if it can never be. @param {readonly File[]} files */
-export function namesOfLeft(files) {
-  return files.map((file) => `“${file.name}”${kindByName(file) === 'other' ? ` (${unreadableKindInWords(file)})` : ''}`).join(', ');
+  const first = [files.find(kindByName) ?? files[0]];
+  return { to: 'heights', files: first, left: without(first) };
 }
 
 /**

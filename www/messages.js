@@ -1,6 +1,6 @@
 /** Sentences of the page: results, errors, hints and labels. */
 import { count, countOf, number, percent, percentAtMost, seconds, shortLambda } from './format.js';
-import { plainMessage } from './error-messages.js';
+import { OPENED_FILES, plainMessage } from './error-messages.js';
 
 /** @typedef {import('../pkg/types.js').Assumption} Assumption */
 /** @import {Report, StopReason, Verdict} from '../pkg/types.js' */
@@ -46,8 +46,8 @@ export const TASK_WORDS = {
 
 /** Messages about files that were dropped on the wrong part of the page, or that cannot be read. */
 export const FILE_WORDS = {
-  /** @param {string} name @param {string} what */
-  unread: (name, what) => `“${name}” is ${what}. This page opens photos of pages (JPEG, PNG, WebP, GIF, BMP, TIFF, PDF), heights and depths (TIFF, EXR, PFM, NPY, NPZ, PGM, SRTM, grids in text, grey PNG), and meshes and point clouds (OBJ, PLY, STL, 3MF, OFF, GLB, XYZ).`,
+  /** @param {string} name */
+  noHeights: (name) => `“${name}” has no heights that are read. If it is a camera, open it together with its depths. ${OPENED_FILES}.`,
   /** @param {number} n */
   takenForPages: (n) => (n === 1 ? 'Taken for a photo of a page.' : 'Taken for photos of pages.'),
   heightsInstead: 'Heights instead?',
@@ -55,8 +55,8 @@ export const FILE_WORDS = {
   openAsPage: 'Flatten it as a page',
   /** @param {string} name */
   inColour: (name) => `“${name}” is in colour and has no heights. With its depths, open both together.`,
-  /** @param {string} names @param {boolean} areDepths */
-  leftOut: (names, areDepths) => `Left out: ${names}.${areDepths ? ' With depths go one photo and the camera’s file.' : ''}`,
+  /** @param {readonly { name: string }[]} files @param {boolean} areDepths */
+  leftOut: (files, areDepths) => `Left out: ${files.map(({ name }) => `“${name}”`).join(', ')}.${areDepths ? ' With depths go one photo and the camera’s file.' : ''}`,
   /** @param {readonly { name: string }[]} files */
   openInstead: (files) => (files.length === 1 ? `Open “${files[0].name}” instead` : 'Open these instead'),
 };
@@ -113,6 +113,8 @@ export const VERDICTS = {
 export const ADDRESS_WORDS = {
   lost: 'This browser has not kept the file of this address. Open the file again.',
   withoutFile: 'Copied, without the file',
+  withFile: 'Copied, with the file',
+  brokenLink: 'This link is not whole: copy all of it.',
   unkept: 'This browser could not keep the file (it is too large, or this is a private window). Open the file again.',
 };
 

@@ -4,7 +4,7 @@ import { test } from 'node:test';
 import { assumedInWords } from '../../www/messages.js';
 import { coarseningFor } from '../../www/import-interpretation.js';
 import { plainMessage } from '../../www/error-messages.js';
-import { kindByName, unreadableKindInWords } from '../../www/file-kinds.js';
+import { kindByName } from '../../www/file-kinds.js';
 import { routeFiles } from '../../www/file-routing.js';
 import { Book } from '../../www/page/book.js';
 
@@ -19,13 +19,13 @@ test('no message has the words of a library', () => {
     ['cannot read this as NPZ: invalid Zip archive: Could not find EOCD', /cut short/],
     ['cannot read this as JPEG: "[strict-mode]: Extra bytes between headers"', /JPEG/],
     ['cannot read this as glTF: expected value at line 1 column 360', /glTF/],
-    ['cannot read this as OBJ: face vertex index out of bounds', /corner that is not in the file/],
+    ['cannot read this as OBJ: line 4 names the vertex 9, which is not there', /^line 4 names the vertex 9, which is not there; copy, download/],
     ['vertex position of the mesh is inf at row 9, column 0; rows are vertices', /vertex 10/],
   ])) {
     assert.match(plainMessage(said), means);
     assert.doesNotMatch(plainMessage(said), /[{}[\]"]|Error|EOCD|parse|strict|column/);
   }
-  assert.equal(plainMessage('cannot read this as PFM: it is cut short: 4 × 4 pixels take 64 bytes, 26 are there'), 'it is cut short: 4 × 4 pixels take 64 bytes, 26 are there');
+  assert.equal(plainMessage('cannot read this as PFM: it is cut short: 4 × 4 pixels take 64 bytes, 26 are there'), 'it is cut short: 4 × 4 pixels take 64 bytes, 26 are there; copy, download or export it again');
 });
 
 test('what a reader has assumed is one sentence', () => {
@@ -49,7 +49,6 @@ test('a grey PNG beside one in colour holds its depths, but is a page among phot
 test('cameras of COLMAP belong to depths, and its depths are no cameras', async () => {
   const [depths, cameras] = ['depth.npy', 'cameras.bin'].map((name) => new File([], name));
   assert.deepEqual(await routeFiles([cameras, depths], false), { to: 'heights', files: [cameras, depths], left: [] });
-  assert.match(unreadableKindInWords(cameras), /cameras.*together with/);
   assert.deepEqual(['cameras (1).bin', 'photo.jpg.geometric.bin', 'cameras.jpg.geometric.bin', 'scan.bin'].map((name) => kindByName({ name })), ['camera', null, null, null]);
 });
 

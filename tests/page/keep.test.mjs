@@ -15,7 +15,7 @@ test('an address says what it was made of, and what it does not know is left', (
     { card: 'fig-8', settings: { lambda: 1e5 } },
     { example: { name: 'cone', size: 200, noise: 0 }, settings: { energy: /** @type {const} */ ('huber'), lambda: /** @type {const} */ ('auto') }, view: 'patches' },
     { file: 4, settings: { lambda: 1e7 }, whole: true, view: 'rulings' },
-    { file: 5, settings: {}, photo: true }, { settings: {}, unkept: true },
+    { linked: { name: 'a b.stl', data: 'a_-b' }, settings: {} }, { file: 5, settings: {}, photo: true }, { settings: {}, unkept: true },
     { file: 3, stored: { pixelSize: 0.25, heightScale: -1e-3, noData: -7 }, settings: { occlusionThreshold: 4e4, gap: 1e-4 } },
   ];
   for (const state of states) {
@@ -37,6 +37,25 @@ test('the gallery has a card for each figure of the paper that it tells, with an
     assert.equal(made.data.length, made.width * made.height, id);
     assert.ok(made.data.some(Number.isFinite) && !made.data.some((z) => Math.abs(z) === Infinity), id);
   }
+});
+
+pageTest('a link holds a small file with its settings, and says when it is not whole', async (page) => {
+  await open(page, 'a slope.npy', npy(48, grid(48, 36, (col, row) => 0.1 * col + 0.15 * row)));
+  await runBy(page, () => typeLambda(page, '2e5'));
+  const link = await page.evaluate(() => new Promise((resolve) => {
+    Object.defineProperty(navigator, 'clipboard', { value: { writeText: async (/** @type {string} */ text) => resolve(text) } });
+    document.getElementById('share')?.click();
+  }));
+  await page.getByRole('button', { name: 'Copied, with the file' }).waitFor();
+  // As on another machine.
+  await page.evaluate(() => indexedDB.deleteDatabase('developable'));
+  await page.goto(String(link));
+  await page.reload();
+  await page.locator('#file-name', { hasText: 'a slope' }).waitFor();
+  await settled(page);
+  assert.equal(parsed(await reported(page, 'λ')), 2e5);
+  await page.goto(String(link).slice(0, -40));
+  await page.getByRole('alert').filter({ hasText: 'not whole' }).waitFor();
 });
 
 pageTest('settings stand in the address, Back undoes them, and a file is there after a reload', async (page) => {

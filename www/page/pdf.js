@@ -34,6 +34,9 @@ export async function picturesOfPdf(file, signal) {
       pictures.push(new File([await canvas.convertToBlob({ type: 'image/jpeg', quality: 1 })], name, { type: 'image/jpeg', lastModified: file.lastModified }));
     }
     return pictures;
+  } catch (error) {
+    const { name, message } = /** @type {Error} */ (error);
+    throw new Error(name === 'PasswordException' ? 'it is locked by a password; save it without one' : `cannot read this as PDF: ${message}`);
   } finally {
     await task.destroy();
   }

@@ -2,6 +2,7 @@
 import { addressOf, isStart, stateOf } from '../address.js';
 import { isExampleModel } from '../doors/example-model.js';
 import { copyText, element, elements, makeButton, SETTLING_MS } from '../dom.js';
+import { fileOfLink, linkedFile } from '../linked-file.js';
 import { ADDRESS_WORDS } from '../messages.js';
 import { recentFiles, storedFiles, storedOutlines, storeFiles, storeOutlines } from '../recent-files.js';
 import { showNotice } from './notice.js';
@@ -32,6 +33,8 @@ export function addressSyncPanel(session, page) {
   const view = () => page.stage.view;
   /** Id of the open file in the storage of recent files. @type {number | undefined} */
   let fileId;
+  /** The files of the input. @type {readonly File[]} */
+  let opened = [];
   let writeTimer = 0;
   /** Number of the newest address that is shown; what older ones still wait for is given up. */
   let newestRestore = 0;
@@ -119,9 +122,9 @@ export function addressSyncPanel(session, page) {
   };
 
   /** Shows the first screen, since the file of an address is no longer stored. */
-  const showLost = () => {
+  const showLost = (words = ADDRESS_WORDS.lost) => {
     page.mode.show('home');
-    showNotice(ADDRESS_WORDS.lost);
+    showNotice(words);
   };
 
   /** Shows the state of an address. @param {State} state */
@@ -148,11 +151,13 @@ export function addressSyncPanel(session, page) {
       const settings = { ...session.defaults, ...state.settings };
       const card = state.card ? page.gallery.find(state.card) : undefined;
       // An address without an input is that of a file of the user's, which is opened by hand.
-      expected = state.file !== undefined || state.example || card ? 'any' : 'file';
+      expected = state.file !== undefined || state.linked || state.example || card ? 'any' : 'file';
       if (card && page.gallery.present !== card) return await page.gallery.show(card, { ...card.settings, ...state.settings }, state.view);
-      const isSameInput = session.input !== null && (card !== undefined || (state.file !== undefined ? state.file === fileId : JSON.stringify(state.example) === JSON.stringify(previous.example)));
+      const isSameInput = session.input !== null && !state.linked && (card !== undefined || (state.file !== undefined ? state.file === fileId : JSON.stringify(state.example) === JSON.stringify(previous.example)));
       const wanted = card ? { ...session.defaults, ...card.settings, ...state.settings } : settings;
-      const files = isSameInput || state.file === undefined ? undefined : await storedFiles(state.file);
+      const linked = state.linked && await fileOfLink(state.linked).catch(() => showLost(ADDRESS_WORDS.brokenLink));
+      if (state.linked && !linked) return;
+      const files = linked ? [linked] : isSameInput || state.file === undefined ? undefined : await storedFiles(state.file);
       if (own !== newestRestore) return;
       if (isSameInput) expected = null;
       if (!isSameInput && state.file !== undefined && !files) return showLost();
@@ -202,8 +207,9 @@ export function addressSyncPanel(session, page) {
     writeAddress();
     const state = presentState();
     // The id of a file has no meaning on another machine.
-    const address = new URL(addressOf({ ...state, file: undefined, stored: undefined }, session.defaults), location.href).href;
-    await copyText(button, address, state.example || state.card ? undefined : ADDRESS_WORDS.withoutFile).catch(() => showNotice(address, 'note'));
+    const linked = session.input?.kind !== undefined && page.mode.now === 'heights' && opened.length === 1 ? await linkedFile(opened[0]) : undefined;
+    const address = new URL(addressOf({ ...state, file: undefined, linked, stored: linked && state.stored }, session.defaults), location.href).href;
+    await copyText(button, address, state.example || state.card ? undefined : linked ? ADDRESS_WORDS.withFile : ADDRESS_WORDS.withoutFile).catch(() => showNotice(address, 'note'));
   });
 
   return {
@@ -221,6 +227,7 @@ export function addressSyncPanel(session, page) {
     },
     /** Stores files that were opened. @param {readonly File[]} files */
     async rememberFiles(files) {
+      opened = files;
       fileId = await storeFiles(files);
       isUnstored = fileId === undefined;
       void updateRecentFiles();

@@ -1,6 +1,6 @@
 /** Opens files of any kind, wherever they come from: the kind of a file chooses the part of the page. */
-import { isPdf, kindByName, unreadableKindInWords } from '../file-kinds.js';
-import { isInColour, namesOfLeft, routeFiles } from '../file-routing.js';
+import { isPdf, kindByName } from '../file-kinds.js';
+import { isInColour, routeFiles } from '../file-routing.js';
 import { FILE_WORDS } from '../messages.js';
 import { picturesOfPdf } from '../page/pdf.js';
 import { showNotice } from './notice.js';
@@ -56,8 +56,7 @@ export function filesPanel(session, mode, source, page) {
       return pages ? open(files.flatMap((file) => (file === pdf ? pages : file)), true) : undefined;
     }
     const { to, files: taken, left } = await routeFiles(files, arePages);
-    if (to === 'none') return showNotice(FILE_WORDS.unread(files[0].name, unreadableKindInWords(files[0])));
-    const leftOut = left.length > 0 ? FILE_WORDS.leftOut(namesOfLeft(left), to === 'heights' && kindByName(taken[0]) !== 'mesh') : '';
+    const leftOut = left.length > 0 ? FILE_WORDS.leftOut(left, to === 'heights' && kindByName(taken[0]) !== 'mesh') : '';
     if (to === 'photos') return openPhotos(taken, leftOut, arePages);
     if (mode.now !== 'heights' || earlier.openings === 0) earlier.mode = mode.now;
     mode.show('heights');
@@ -68,7 +67,7 @@ export function filesPanel(session, mode, source, page) {
       return;
     }
     // The start of a run hides the notice, so it is shown afterwards.
-    const openable = left.filter((file) => kindByName(file) !== 'other');
+    const openable = left.filter(kindByName);
     if (openable.length > 0) note(leftOut, { label: FILE_WORDS.openInstead(openable), act: () => void open(openable) });
     else if (taken.length === 1 && kindByName(taken[0]) === 'picture') note([FILE_WORDS.takenForHeights, leftOut].filter(Boolean).join(' '), { label: FILE_WORDS.openAsPage, act: () => void openPhotos(taken, '', true) });
     else note(leftOut);

@@ -5,7 +5,7 @@ import { readInput } from '../height-file.js';
 import { hasColours } from '../views/photo.js';
 import { noDataOf, reinterpret, spanInWords } from '../import-interpretation.js';
 import { fileRoles } from '../file-routing.js';
-import { isMesh, isMeshFormat, kindByName, unreadableKindInWords } from '../file-kinds.js';
+import { isMesh, isMeshFormat, kindByName } from '../file-kinds.js';
 import { assumedInWords, DEPTH_WORDS, FILE_WORDS } from '../messages.js';
 import { cameraPanel } from './camera.js';
 import { meshPanel } from './mesh.js';
@@ -81,7 +81,7 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
       const isCamera = session.input?.kind ? await camera.readCamera(chosen, format === 'text') : undefined;
       if (isCamera !== undefined) return isCamera;
       if (format === undefined) {
-        showNotice(FILE_WORDS.unread(chosen.name, unreadableKindInWords(chosen)));
+        showNotice(FILE_WORDS.noHeights(chosen.name));
         return false;
       }
     }

@@ -3,9 +3,7 @@ import { make, makeButton } from '../dom.js';
 import { count, percent } from '../format.js';
 import { TASK_WORDS } from '../messages.js';
 
-/** Interval between two updates of the time, in milliseconds. */
-const UPDATE_INTERVAL_MS = 200;
-/** Delay before the progress of a task is shown, in milliseconds: shorter tasks end before anybody could read it. */
+/** Delay before the progress of a task is shown, and before it is told anew, in milliseconds: shorter tasks end before anybody could read it. */
 export const PROGRESS_DELAY_MS = 150;
 
 /** @typedef {{ fraction?: number, label?: string, task?: Task }} TaskProgress share of a step that is done, if that is known; what the step does, in words or as a task */
@@ -44,7 +42,7 @@ export function waitingPanel(panel, cancel, delay = 0) {
       if (delay === 0) panel.hidden = false;
       else showTimer = window.setTimeout(() => (panel.hidden = false), delay);
       clearInterval(updateTimer);
-      updateTimer = window.setInterval(update, UPDATE_INTERVAL_MS);
+      updateTimer = window.setInterval(update, PROGRESS_DELAY_MS);
       update();
     },
     /** Tells how far the task is. What follows a step that is done is not told. @param {TaskProgress} progress */

@@ -61,9 +61,7 @@ export class Solver extends Steps {
   constructor(input, given) {
     const field = asInput(input);
     const options = optionsOf('solver', given);
-    super(solver, solver.call(({ Solver: { onImage, onLattice } }) =>
-      field.kind === 'image' ? onImage(field, options) : onLattice(field, options),
-    ));
+    super(solver, solver.call((wasm) => new wasm.Solver(field, options)));
     this.#carried = carriedOf(field);
   }
 
@@ -83,9 +81,7 @@ export class Solver extends Steps {
     const handle = this.live();
     const field = asInput(input);
     const options = optionsOf('solver', given);
-    solver.call(() =>
-      field.kind === 'image' ? handle.restartWithImage(field, options) : handle.restartWithLattice(field, options),
-    );
+    solver.call(() => handle.restartWith(field, options));
     this.#carried = carriedOf(field);
     this.restarted();
   }
@@ -163,9 +159,7 @@ export function occlusions(input, given) {
   const field = asField(input);
   const { threshold: occlusionThreshold, ...rest } = optionsOf('occlusions', given);
   const options = { ...rest, occlusionThreshold };
-  return solver.call((wasm) =>
-    field.kind === 'image' ? wasm.occlusionsOfImage(field, options) : wasm.occlusionsOfLattice(field, options),
-  );
+  return solver.call((wasm) => wasm.occlusions(field, options));
 }
 
 /** @type {typeof import('./direct.js').read} */

@@ -10,20 +10,11 @@ use developable::Error;
 use developable::{OCCLUSION_THRESHOLD, Occlusions};
 use developable_wasm::Result;
 
-/// Detects occlusions in the heights of a height image, after resampling to the lattice.
-#[wasm_bindgen(js_name = occlusionsOfImage)]
-pub fn occlusions_of_image(image: JsValue, options: JsValue) -> Result<JsValue> {
-    detect(&Source::image(image)?, &options)
-}
-
-/// Detects occlusions in the heights of a heightfield.
-#[wasm_bindgen(js_name = occlusionsOfLattice)]
-pub fn occlusions_of_lattice(field: JsValue, options: JsValue) -> Result<JsValue> {
-    detect(&Source::lattice(field)?, &options)
-}
-
-fn detect(source: &Source, options: &JsValue) -> Result<JsValue> {
-    let settings = Settings::new(options)?;
+/// Detects occlusions in the heights of a height image, after resampling to the lattice, or of a heightfield.
+#[wasm_bindgen(js_name = occlusions)]
+pub fn detect(field: JsValue, options: JsValue) -> Result<JsValue> {
+    let source = Source::new(field)?;
+    let settings = Settings::new(&options)?;
     let field = source.heights(&settings)?;
     let lattice = field.lattice();
     let threshold = settings.occlusion_threshold.unwrap_or(OCCLUSION_THRESHOLD);

@@ -21,20 +21,11 @@ pub struct Solver {
 
 #[wasm_bindgen]
 impl Solver {
-    /// Makes a solver for the heights of a height image, which are resampled to the lattice.
-    #[wasm_bindgen(js_name = onImage)]
-    pub fn on_image(image: JsValue, options: JsValue) -> Result<Solver> {
-        Solver::on(Source::image(image)?, &options)
-    }
-
-    /// Makes a solver for the heights of a heightfield, which are on the lattice already.
-    #[wasm_bindgen(js_name = onLattice)]
-    pub fn on_lattice(field: JsValue, options: JsValue) -> Result<Solver> {
-        Solver::on(Source::lattice(field)?, &options)
-    }
-
-    fn on(source: Source, options: &JsValue) -> Result<Solver> {
-        let settings = Settings::new(options)?;
+    /// Makes a solver for the heights of a height image, which are resampled to the lattice, or of a heightfield.
+    #[wasm_bindgen(constructor)]
+    pub fn new(field: JsValue, options: JsValue) -> Result<Solver> {
+        let source = Source::new(field)?;
+        let settings = Settings::new(&options)?;
         let (input, pixels) = source.input(&settings)?;
         Ok(Solver {
             solver: developable::Solver::new(input, &settings.options)?,
@@ -58,20 +49,11 @@ impl Solver {
         Ok(())
     }
 
-    /// Restarts the solve with another height image, with a warm start from the last surface.
-    #[wasm_bindgen(js_name = restartWithImage)]
-    pub fn restart_with_image(&mut self, image: JsValue, options: JsValue) -> Result<()> {
-        self.restart_with(Source::image(image)?, &options)
-    }
-
-    /// Restarts the solve with other heights on the lattice, with a warm start from the last surface.
-    #[wasm_bindgen(js_name = restartWithLattice)]
-    pub fn restart_with_lattice(&mut self, field: JsValue, options: JsValue) -> Result<()> {
-        self.restart_with(Source::lattice(field)?, &options)
-    }
-
-    fn restart_with(&mut self, source: Source, options: &JsValue) -> Result<()> {
-        let settings = Settings::new(options)?;
+    /// Restarts the solve with other heights, with a warm start from the last surface.
+    #[wasm_bindgen(js_name = restartWith)]
+    pub fn restart_with(&mut self, field: JsValue, options: JsValue) -> Result<()> {
+        let source = Source::new(field)?;
+        let settings = Settings::new(&options)?;
         let (input, pixels) = source.input(&settings)?;
         self.solver.restart_with(input, &settings.options)?;
         self.pixels = pixels;

@@ -8,8 +8,9 @@ use super::settings::Settings;
 use developable::checks::check_confidence;
 use developable::checks::try_filled;
 use developable::{Bridging, HeightImage, Heightfield, Input, Occlusions};
+use developable_wasm::Result;
 use developable_wasm::fields::{ImageInput, LatticeInput, bytes, values};
-use developable_wasm::{Failure, Result};
+use developable_wasm::scene::{check_spacing, is_image};
 
 /// Optional fields of JavaScript's `HeightImage` and `Heightfield` objects besides the heights.
 #[derive(Deserialize)]
@@ -60,7 +61,14 @@ pub struct LatticeSource {
 }
 
 impl Source {
-    pub fn image(value: JsValue) -> Result<Source> {
+    pub fn new(value: JsValue) -> Result<Source> {
+        match is_image(&value)? {
+            true => Source::image(value),
+            false => Source::lattice(value),
+        }
+    }
+
+    fn image(value: JsValue) -> Result<Source> {
         let known: ConditionsInput = from_value(value.clone())?;
         let input: ImageInput = from_value(value)?;
         let design = input.data.is_undefined();
@@ -137,7 +145,7 @@ impl Source {
                 Ok((input, Some(pixels)))
             }
             Source::Lattice(parts) => {
-                check_spacing(settings)?;
+                check_spacing(settings.spacing, false)?;
                 Ok((parts.clone().into_input(settings)?, None))
             }
         }
@@ -148,20 +156,10 @@ impl Source {
         match self {
             Source::Image(image) => Ok(image.heights.to_lattice(settings.spacing)?),
             Source::Lattice(parts) => {
-                check_spacing(settings)?;
+                check_spacing(settings.spacing, false)?;
                 Ok(parts.heights.clone())
             }
         }
-    }
-}
-
-/// Returns an error if a lattice spacing is given for an input that is on a lattice already.
-fn check_spacing(settings: &Settings) -> Result<()> {
-    match settings.spacing {
-        None => Ok(()),
-        Some(_) => Err(Failure::option(
-            "option `spacing` is for images; a lattice has the spacing of its input",
-        )),
     }
 }
 

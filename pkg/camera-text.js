@@ -155,7 +155,7 @@ function pairs(line) {
 }
 
 /** Puts what is between brackets in one line. @param {string[]} lines */
-function joined(lines) {
+function joinBracketed(lines) {
   let open = 0;
   /** @type {string[]} */
   const whole = [];
@@ -183,7 +183,7 @@ function named(lines) {
   };
   /** @type {unknown[]} */
   let list = [];
-  for (const line of joined(lines).flatMap(pairs)) {
+  for (const line of joinBracketed(lines).flatMap(pairs)) {
     const [, section] = /^\s*\[([^\],]+)\]\s*$/.exec(line) ?? [];
     if (section !== undefined) {
       open = [open[0]];

@@ -31,7 +31,7 @@ export async function explored(worker, trials, input, given) {
   const { spacing } = solver;
   signal?.throwIfAborted();
   const open = await worker.open(input);
-  const solved = async (/** @type {number} */ lambda) => {
+  const fitAt = async (/** @type {number} */ lambda) => {
     const begun = performance.now();
     // The nuclear norm makes few large sheets.
     const surface = await open.fit({ paper: true, ...solver, lambda, signal });
@@ -39,7 +39,7 @@ export async function explored(worker, trials, input, given) {
     return { surface, distance: deviation?.rms ?? NaN, seconds: (performance.now() - begun) / 1000 };
   };
   try {
-    return await tried(await trials({ lambdas, smallest }), choice, solved, (surface, smallest) => worker.pattern(surface, { ...pattern, smallest }));
+    return await tryPlans(await trials({ lambdas, smallest }), choice, fitAt, (surface, smallest) => worker.pattern(surface, { ...pattern, smallest }));
   } finally {
     open.dispose();
   }
@@ -57,11 +57,11 @@ export async function exploredMesh(worker, trials, mesh, given) {
   signal?.throwIfAborted();
   const own = lambdas === undefined ? await worker.fitMesh(mesh, { ...solver, signal }) : undefined;
   const all = await trials({ lambdas, smallest, meshLambda: own?.report.lambda });
-  const solved = async (/** @type {number} */ lambda) => {
+  const fitAt = async (/** @type {number} */ lambda) => {
     const surface = lambda === own?.report.lambda ? own : await worker.fitMesh(mesh, { ...solver, lambda, signal });
-    return { surface, distance: moved(mesh, surface), seconds: surface.report.seconds.total };
+    return { surface, distance: displacement(mesh, surface), seconds: surface.report.seconds.total };
   };
-  return tried(all, choice, solved, (surface, smallest) => worker.patternMesh(surface, { ...pattern, smallest }));
+  return tryPlans(all, choice, fitAt, (surface, smallest) => worker.patternMesh(surface, { ...pattern, smallest }));
 }
 
 /**
@@ -69,7 +69,7 @@ export async function exploredMesh(worker, trials, mesh, given) {
  * @param {Mesh} mesh
  * @param {Mesh} surface
  */
-function moved({ positions: from }, { positions: to }) {
+function displacement({ positions: from }, { positions: to }) {
   const squares = to.reduce((sum, x, k) => sum + (x - from[k]) ** 2, 0);
   return Math.sqrt((3 * squares) / to.length);
 }
@@ -79,19 +79,19 @@ function moved({ positions: from }, { positions: to }) {
  * @template S
  * @param {Awaited<ReturnType<Trials>>} trials
  * @param {Pick<import('./index.js').ExplorePatternOptions, 'sheets' | 'signal' | 'onPlan'>} choice
- * @param {(lambda: number) => Promise<Solved<S>>} solved
- * @param {(surface: S, smallest: number) => Promise<import('./types.js').Drawing>} laid
+ * @param {(lambda: number) => Promise<Solved<S>>} fitAt
+ * @param {(surface: S, smallest: number) => Promise<import('./types.js').Drawing>} patternOf
  * @returns {Promise<ExploredPatterns>}
  */
-async function tried({ lambdas, smallest }, { sheets = Infinity, signal, onPlan }, solved, laid) {
+async function tryPlans({ lambdas, smallest }, { sheets = Infinity, signal, onPlan }, fitAt, patternOf) {
   /** @type {PatternPlan[]} */
   const plans = [];
   for (const lambda of lambdas) {
-    const { surface, distance, seconds: fitting } = await solved(lambda);
+    const { surface, distance, seconds: fitting } = await fitAt(lambda);
     for (const share of smallest) {
       signal?.throwIfAborted();
       const started = performance.now();
-      const found = await drawn(laid(surface, share));
+      const found = await patternOrProblem(patternOf(surface, share));
       const seconds = fitting + (performance.now() - started) / 1000;
       const plan = { lambda, smallest: share, distance, seconds, ...found };
       plans.push(plan);
@@ -106,7 +106,7 @@ async function tried({ lambdas, smallest }, { sheets = Infinity, signal, onPlan 
  * A pattern, or why there is none.
  * @param {Promise<import('./types.js').Drawing>} pattern
  */
-async function drawn(pattern) {
+async function patternOrProblem(pattern) {
   try {
     return { drawing: await pattern };
   } catch (error) {

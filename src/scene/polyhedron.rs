@@ -71,8 +71,8 @@ impl Polyhedron {
     /// [`Error::Unsupported`] for a mesh whose triangles have no area.
     pub(crate) fn new(mesh: &Mesh) -> Result<Polyhedron> {
         let rounding = rounding(mesh);
-        let (places, joined) = join(mesh.positions(), rounding);
-        let triangles = (mesh.triangles().iter()).map(|t| t.map(|v| joined[v as usize]));
+        let (places, merged) = merge_points(mesh.positions(), rounding);
+        let triangles = (mesh.triangles().iter()).map(|t| t.map(|v| merged[v as usize]));
         let given: Vec<(usize, [u32; 3])> = triangles
             .enumerate()
             .filter(|(_, [a, b, c])| a != b && b != c && c != a)
@@ -348,12 +348,12 @@ fn have_six_digits(numbers: &[f64], largest: f64, tolerance: f64) -> bool {
 }
 
 /// Joins points nearer to each other than the rounding; returns them and the number of each given point among them.
-fn join(positions: &[[f64; 3]], rounding: f64) -> (Vec<Place>, Vec<u32>) {
+fn merge_points(positions: &[[f64; 3]], rounding: f64) -> (Vec<Place>, Vec<u32>) {
     let mut cells: FxHashMap<[i64; 3], Vec<u32>> = FxHashMap::default();
     let mut places: Vec<Place> = Vec::new();
     let size = rounding.max(f64::MIN_POSITIVE);
     let low = [0, 1, 2].map(|k| positions.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min));
-    let joined = positions.iter().map(|p| {
+    let merged = positions.iter().map(|p| {
         let place = Place::from(*p);
         let cell = [0, 1, 2].map(|k| ((p[k] - low[k]) / size).floor() as i64);
         let around = (0..27i64).map(|i| {
@@ -370,8 +370,8 @@ fn join(positions: &[[f64; 3]], rounding: f64) -> (Vec<Place>, Vec<u32>) {
             number
         })
     });
-    let joined = joined.collect();
-    (places, joined)
+    let merged = merged.collect();
+    (places, merged)
 }
 
 /// Whether two arms of triangles at an edge lie in one plane through it, to rounding.

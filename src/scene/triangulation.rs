@@ -54,8 +54,8 @@ impl Triangulation {
             });
         }
         let used = numbers.iter().filter(|n| **n != NO_INDEX).count();
-        let mut vertices = room(used)?;
-        let mut positions = room(used)?;
+        let mut vertices = with_capacity(used)?;
+        let mut positions = with_capacity(used)?;
         for (i, number) in numbers
             .iter_mut()
             .enumerate()
@@ -66,7 +66,7 @@ impl Triangulation {
             let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
             positions.push(frame.to_world([x, y, surface.heights()[i]]));
         }
-        let mut triangles = room(count)?;
+        let mut triangles = with_capacity(count)?;
         triangles.extend(whole().map(|triangle| triangle.map(|i| numbers[i])));
         let mesh = Mesh::new(positions, triangles)?;
         let normals = normals(&mesh, lattice.spacing())?;
@@ -142,7 +142,7 @@ impl Triangulation {
     ) -> Result<Vec<[f32; N]>> {
         check_count(what, self.lattice.len(), N, N * values.len())?;
         let known = |value: &[f32; N]| value.iter().all(|v| v.is_finite());
-        let mut picked = room(self.vertices.len())?;
+        let mut picked = with_capacity(self.vertices.len())?;
         picked.extend(self.vertices.iter().map(|i| values[*i as usize]));
         let mut missing = picked.iter().filter(|value| !known(value)).count();
         while missing > 0 {
@@ -178,7 +178,7 @@ impl Triangulation {
     }
 }
 
-fn room<T>(len: usize) -> Result<Vec<T>> {
+fn with_capacity<T>(len: usize) -> Result<Vec<T>> {
     let mut list = Vec::new();
     list.try_reserve_exact(len)
         .map_err(|_| Error::OutOfMemory {
@@ -217,7 +217,7 @@ fn normals(mesh: &Mesh, spacing: f64) -> Result<Vec<[f32; 3]>> {
             (0..3).for_each(|k| sums[*vertex as usize][k] += normal[k]);
         }
     }
-    let mut normals = room(sums.len())?;
+    let mut normals = with_capacity(sums.len())?;
     normals.extend(sums.into_iter().map(|[x, y, z]: [f64; 3]| {
         let length = x.hypot(y).hypot(z);
         [x, y, z].map(|v| lanes::single(v / length))

@@ -38,11 +38,11 @@ pub(super) fn arcs(curve: &Curve) -> Vec<Corner> {
         place: *place,
         bulge: 0.0,
     }));
-    joined(&out)
+    merge_arcs(&out)
 }
 
 /// Makes one arc of neighbouring ones on the same circle, up to half a circle.
-fn joined(corners: &[Corner]) -> Vec<Corner> {
+fn merge_arcs(corners: &[Corner]) -> Vec<Corner> {
     let mut out: Vec<Corner> = Vec::new();
     for (k, corner) in corners.iter().enumerate() {
         let whole = out.last().zip(corners.get(k + 1)).and_then(|(last, next)| {

@@ -39,13 +39,13 @@ impl OptionReader {
         let _ = T::deserialize(FieldNames(&mut names));
         self.known.extend(names);
         from_value(self.options.clone().into()).map_err(|error| {
-            let fault = names.iter().find_map(|name| self.fault::<T>(name));
-            fault.unwrap_or_else(|| error.into())
+            let failure = names.iter().find_map(|name| self.option_failure::<T>(name));
+            failure.unwrap_or_else(|| error.into())
         })
     }
 
     /// Returns the error of an option that the structure cannot be read with; `None` if this one is right.
-    fn fault<T: DeserializeOwned>(&self, name: &str) -> Option<Failure> {
+    fn option_failure<T: DeserializeOwned>(&self, name: &str) -> Option<Failure> {
         // Neither can fail: `pkg/options.js` has made the object, without getters, and the other one is new.
         let value = Reflect::get(&self.options, &name.into()).ok()?;
         if value.is_undefined() {

@@ -49,7 +49,7 @@ pub(super) fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<StoredImag
         return Err(damaged("its sizes contradict each other"));
     }
     check_length(bytes, needed)?;
-    let about = tiff_tags::read(&mut file, stored, kind, options)?;
+    let tags = tiff_tags::read(&mut file, stored, kind, options)?;
 
     let mut raw = try_filled("TIFF image", needed, 0u8)?;
     file.read_image_bytes(&mut raw).map_err(failed)?;
@@ -59,7 +59,7 @@ pub(super) fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<StoredImag
             cfg!(target_endian = "big"),
         )
     })?;
-    let mut image = about.image;
+    let mut image = tags.image;
     let further = tiff_tags::further_images(&mut file, stored)?;
     let masked = values.iter_mut().zip(further.mask.unwrap_or_default());
     let without = masked.filter(|(_, mask)| *mask == 0);
@@ -68,16 +68,16 @@ pub(super) fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<StoredImag
         let words = "the first of several images is meant";
         (image.assumptions).push(Assumption::new("firstImage", words, None));
     }
-    (image.values, image.size) = oriented(values, stored, about.orientation)?;
+    (image.values, image.size) = oriented(values, stored, tags.orientation)?;
     // What is turned after all lies elsewhere on the map, and the size of pixels alone is no place.
     image.georeference = (image.georeference)
-        .filter(|map| about.orientation == 1 && (map.has_system() || map.has_place()));
+        .filter(|map| tags.orientation == 1 && (map.has_system() || map.has_place()));
     if let Some(map) = image.georeference.as_mut().filter(|map| map.is_mirrored()) {
         map.reverse_rows(image.size.1);
         let rows: Vec<&[f64]> = image.values.chunks_exact(image.size.0).rev().collect();
         image.values = rows.concat();
     }
-    if about.orientation >= 5 {
+    if tags.orientation >= 5 {
         image.sides = image.sides.map(|[x, y]| [y, x]);
         image.aspect = 1.0 / image.aspect;
     }

@@ -85,14 +85,14 @@ export const GUESS_WORDS = {
   coarse: (step) => `The image is large, so one vertex stands for ${step} × ${step} pixels (“Lattice” under “More options” changes that).`,
 };
 
-/** Explanations of the energies. @type {Record<Energy, string>} */
+/** The energies: their names and what they do. @type {Record<Energy, { name: string, about: string }>} */
 export const ENERGIES = {
-  nuclear: 'The paper’s energy, nuclear norms of the Hessians: each piece bends one way only, and noisy bends become facets.',
-  frobenius: 'Frobenius norms of the Hessians: smooth where it should crease, for comparison.',
-  squaredNuclear: 'Squared nuclear norms of the Hessians: smooth where it should crease, for comparison.',
-  secondFormOfInput: 'Nuclear norms of the second fundamental form (exact curvature), with the slopes of the input.',
-  secondForm: 'Nuclear norms of the second fundamental form (exact curvature), with the surface’s own slopes. The proof is for the last slopes.',
-  huber: 'Gentle bends count by their square, creases by their size: bends stay round and creases sharp. The proof is for the last pass over the creases.',
+  nuclear: { name: 'nuclear norm of the Hessian', about: 'The paper’s energy, nuclear norms of the Hessians: each piece bends one way only, and noisy bends become facets.' },
+  huber: { name: 'smooth bends, sharp creases', about: 'Gentle bends count by their square, creases by their size: bends stay round and creases sharp. The proof is for the last pass over the creases.' },
+  frobenius: { name: 'Frobenius norm', about: 'Frobenius norms of the Hessians: smooth where it should crease, for comparison.' },
+  squaredNuclear: { name: 'squared nuclear norm', about: 'Squared nuclear norms of the Hessians: smooth where it should crease, for comparison.' },
+  secondFormOfInput: { name: 'second form, slopes of the input', about: 'Nuclear norms of the second fundamental form (exact curvature), with the slopes of the input.' },
+  secondForm: { name: 'second form, its own slopes', about: 'Nuclear norms of the second fundamental form (exact curvature), with the surface’s own slopes. The proof is for the last slopes.' },
 };
 
 /** Why a result cannot be copied as a command, and why not as code. */

@@ -103,7 +103,7 @@ function groupsOf(result) {
       ['Gap', percentAtMost(report.gap), report.gap === undefined ? 'The energy is almost zero, so a share of it would say nothing.' : 'No surface has an energy that is lower by more than this share.'],
       ['Objective', number(report.objective, 5), 'The energy of the result: fidelity and bending together.'],
       ['Fidelity', number(report.fidelity, 4), 'How far the result is from the input: λ times the squared distances.'],
-      [isNuclear ? 'Nuclear norms' : 'Bending', number(report.nuclearNorm, 4), isNuclear ? 'How much the result bends and creases.' : ENERGIES[report.energy]],
+      [isNuclear ? 'Nuclear norms' : 'Bending', number(report.nuclearNorm, 4), isNuclear ? 'How much the result bends and creases.' : ENERGIES[report.energy].about],
       ['Dual bound', number(report.dualBound, 5), 'The proof: no surface at all has a lower energy.'],
       ['Stopped by', STOP_REASONS[report.stopReason], ''],
     ],

@@ -10,13 +10,7 @@ const LAMBDA_FIELD = { 'lambda-value': { label: 'λ as a number', range: { ...be
 const SOLVER_FIELDS = {
   gap: { label: 'Proven within', options: { 0.1: '10 %', 0.03: '3 %', 0.01: '1 %', 0.003: '0.3 %', 0.001: '0.1 %', 0.0001: '0.01 %' }, value: '0.01' },
   coarsening: { label: 'Lattice', options: { 1: 'one vertex per pixel', 2: 'spacing of 2 pixels', 4: 'spacing of 4 pixels' }, value: '1' },
-  energy: {
-    label: 'Energy',
-    options: {
-      nuclear: 'nuclear norm of the Hessian', huber: 'smooth bends, sharp creases', frobenius: 'Frobenius norm', squaredNuclear: 'squared nuclear norm',
-      secondFormOfInput: 'second form, slopes of the input', secondForm: 'second form, its own slopes',
-    },
-  },
+  energy: { label: 'Energy', options: Object.fromEntries(Object.entries(ENERGIES).map(([energy, { name }]) => [energy, name])) },
   'find-occlusions': { label: 'Tear where it jumps (occlusions)', value: false, controls: 'threshold' },
   threshold: { label: 'Smallest jump', value: '4e4', range: { ...above(0), isWide: true } },
 };
@@ -41,7 +35,7 @@ export function settingsPanel(session, meshFit) {
   const chosen = () => {
     options.show(options.isChecked('find-occlusions'), 'threshold');
     const energy = /** @type {Energy} */ (options.text('energy'));
-    options.hint('energy', ENERGIES[energy]);
+    options.hint('energy', ENERGIES[energy].about);
     return { gap: options.number('gap'), coarsening: options.number('coarsening'), energy, occlusionThreshold: options.isChecked('find-occlusions') ? options.number('threshold') : undefined };
   };
   /** @param {Settings} settings */

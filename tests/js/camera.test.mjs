@@ -6,6 +6,7 @@ import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
+import { error } from './support/error.mjs';
 
 after(() => developable.dispose());
 await Promise.all([direct.init(), direct.load('files', 'meshes')]);
@@ -32,13 +33,6 @@ function checkPlane(positions, tolerance = 1e-6) {
     assert.ok(Math.abs(dot(normal, point) - away) < tolerance, point.join());
   }
 }
-
-/** @param {string} code @param {RegExp} message */
-const error = (code, message) => (/** @type {any} */ thrown) => {
-  assert.equal(thrown.code, code, String(thrown));
-  assert.match(thrown.message, message);
-  return true;
-};
 
 test('every pixel becomes a vertex on its ray', async () => {
   const mesh = direct.backProject(image, camera);

@@ -4,20 +4,12 @@ import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
 import * as direct from '../../pkg/direct.js';
 import { initSync, loadSync } from '../../pkg/sync.js';
+import { error } from './support/error.mjs';
 import { filesWasmFile, wasmFile } from './support/paths.mjs';
 import { cylinder, deviation, endless, image, lattice, noisy, plane, rms } from './support/shapes.mjs';
 
 const { DevelopableError } = direct;
 const ramp = image(12, 10, plane);
-
-/** @param {string} code @param {RegExp} [message] */
-const error = (code, message = /./) => (/** @type {unknown} */ thrown) => {
-  assert.ok(thrown instanceof DevelopableError, String(thrown));
-  assert.equal(thrown.name, 'DevelopableError');
-  assert.equal(thrown.code, code);
-  assert.match(thrown.message, message);
-  return true;
-};
 
 test('before init every function says so', () => {
   assert.throws(() => direct.fit(ramp), error('NOT_INITIALIZED', /init\(\)/));

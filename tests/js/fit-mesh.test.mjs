@@ -6,16 +6,9 @@ import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
+import { error } from './support/error.mjs';
 
 after(() => developable.dispose());
-
-/** @param {string} code @param {RegExp} [message] */
-const error = (code, message = /./) => (/** @type {unknown} */ thrown) => {
-  assert.ok(thrown instanceof direct.DevelopableError, String(thrown));
-  assert.equal(thrown.code, code);
-  assert.match(thrown.message, message);
-  return true;
-};
 
 /** A repeatable number about normal, of variance 1. */
 function noise() {

@@ -8,6 +8,7 @@ import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { loadSync } from '../../pkg/sync.js';
 import { run, temporaryFolder } from './support/command.mjs';
+import { error } from './support/error.mjs';
 import { filesWasmFile, imagesWasmFile, pkg, root } from './support/paths.mjs';
 import { deviation, image, plane } from './support/shapes.mjs';
 
@@ -20,14 +21,6 @@ const data = (name) => readFile(join(root, 'tests/data', name));
 /** As `tests/data/make-images.py` begins: 3 rows of 4 values, one of them missing. */
 const ramp = Array.from({ length: 12 }, (_, i) => 7 * i + 3);
 const holes = ramp.map((value, i) => (i === 6 ? NaN : value / 8 - 2));
-
-/** @param {string} code @param {RegExp} message */
-const error = (code, message) => (/** @type {unknown} */ thrown) => {
-  assert.ok(thrown instanceof direct.DevelopableError, String(thrown));
-  assert.equal(thrown.code, code, thrown.message);
-  assert.match(thrown.message, message);
-  return true;
-};
 
 test('the direct API says which wasm file a format needs', async () => {
   const [tiff, npy] = [await data('f4.tif'), await data('f4-le.npy')];

@@ -2,17 +2,10 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import * as direct from '../../pkg/direct.js';
+import { error } from './support/error.mjs';
 import { cylinder, deviation, image, lattice, noisy, plane, rms } from './support/shapes.mjs';
 
 await direct.init();
-
-/** @param {string} code @param {RegExp} message */
-const error = (code, message) => (/** @type {unknown} */ thrown) => {
-  assert.ok(thrown instanceof direct.DevelopableError, String(thrown));
-  assert.equal(thrown.code, code, thrown.message);
-  assert.match(thrown.message, message);
-  return true;
-};
 
 /** The vertices of a surface with a height, each with its place. @param {direct.Surface} surface */
 function* vertices({ rows, cols, spacing, origin, heights }) {

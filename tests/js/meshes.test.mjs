@@ -7,19 +7,12 @@ import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
+import { error } from './support/error.mjs';
 
 after(() => developable.dispose());
 
 /** @param {string} name */
 const file = (name) => readFile(new URL(`../data/meshes/${name}`, import.meta.url));
-
-/** @param {string} code @param {RegExp} [message] */
-const error = (code, message = /./) => (/** @type {unknown} */ thrown) => {
-  assert.ok(thrown instanceof direct.DevelopableError, String(thrown));
-  assert.equal(thrown.code, code);
-  assert.match(thrown.message, message);
-  return true;
-};
 
 /** A square of the plane x + 2y + 4z = 1 that stands in the mesh's own axes, finely cut. */
 function tilted(cells = 12) {

@@ -8,6 +8,7 @@ import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
 import { readPdf } from './support/drawings.mjs';
+import { error } from './support/error.mjs';
 import { withExif } from './support/exif.mjs';
 
 after(() => developable.dispose());
@@ -41,14 +42,6 @@ const photo = {
     const [x, y] = [Math.floor(i / 4) % width, Math.floor(i / 4 / width)];
     return [x / 2, y / 3, 0, 255][i % 4];
   }),
-};
-
-/** @param {string} code @param {RegExp} [message] */
-const error = (code, message = /./) => (/** @type {unknown} */ thrown) => {
-  assert.ok(thrown instanceof direct.DevelopableError, String(thrown));
-  assert.equal(thrown.code, code, thrown.message);
-  assert.match(thrown.message, message);
-  return true;
 };
 
 await direct.init();

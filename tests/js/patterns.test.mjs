@@ -12,6 +12,7 @@ import * as direct from '../../pkg/direct.js';
 import { launch, skip } from './support/browser.mjs';
 import { run, temporaryFolder } from './support/command.mjs';
 import { extent, length, readDxf, readPdf } from './support/drawings.mjs';
+import { error } from './support/error.mjs';
 import { lattice } from './support/shapes.mjs';
 
 after(() => developable.dispose());
@@ -32,14 +33,6 @@ const pyramid = lattice(94, 81, (x, y) => -0.8 * Math.max(Math.abs(x - 40.2), Ma
 function near(found, expected, share = 0.002) {
   assert.ok(Math.abs(found - expected) <= share * Math.abs(expected), `${found} is not ${expected}`);
 }
-
-/** @param {string} code @param {RegExp} [message] */
-const error = (code, message = /./) => (/** @type {unknown} */ thrown) => {
-  assert.ok(thrown instanceof direct.DevelopableError, String(thrown));
-  assert.equal(thrown.code, code);
-  assert.match(thrown.message, message);
-  return true;
-};
 
 before(() => Promise.all([direct.init(), direct.load('files', 'unroll')]));
 

@@ -7,6 +7,7 @@ import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { normal, smoothNoise } from '../../tools/bench/phone/sensor.mjs';
 import { run, temporaryFolder } from './support/command.mjs';
+import { error } from './support/error.mjs';
 import { withExif } from './support/exif.mjs';
 import { expanded, readNpyMap } from './support/maps.mjs';
 import { depthCamera, depths, displacement, meets, photo, photoCamera } from './support/phone.mjs';
@@ -17,13 +18,6 @@ await Promise.all([direct.init(), direct.load('files', 'images', 'meshes', 'unro
 const { width, height, ...numbers } = depthCamera;
 const picture = photo(photoCamera);
 const seen = direct.sampleMesh(direct.backProject(depths(), numbers), { view: 'best-fit' });
-
-/** @param {string} code @param {RegExp} message */
-const error = (code, message) => (/** @type {any} */ thrown) => {
-  assert.equal(thrown.code, code, String(thrown));
-  assert.match(thrown.message, message);
-  return true;
-};
 
 /** The warp map that the command has written. @param {string} folder */
 async function mapIn(folder) {

@@ -7,6 +7,7 @@ import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
 import { readPdfPicture, readPdfWords } from './support/drawings.mjs';
+import { error } from './support/error.mjs';
 import { depthCamera, depths, photo as taken, photoCamera } from './support/phone.mjs';
 
 after(() => developable.dispose());
@@ -21,13 +22,6 @@ const picture = {
     const [x, y] = [Math.floor(i / 4) % width, Math.floor(i / 4 / width)];
     return [2 * x, 3 * y, 40, y < 48 ? 255 : 0][i % 4];
   }),
-};
-
-/** @param {string} code @param {RegExp} message */
-const error = (code, message) => (/** @type {any} */ thrown) => {
-  assert.equal(thrown.code, code, String(thrown));
-  assert.match(thrown.message, message);
-  return true;
 };
 
 /** What a PNG's pHYs chunk states, in pixels per millimetre. @param {Uint8Array} file */

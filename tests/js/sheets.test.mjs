@@ -6,6 +6,7 @@ import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
+import { error } from './support/error.mjs';
 import { lattice } from './support/shapes.mjs';
 
 after(() => developable.dispose());
@@ -30,14 +31,6 @@ const photo = {
 
 /** Where on the page a place is that is seen at `x`. @param {number} x */
 const onPage = (x) => radius * Math.asin((x - width / 2) / radius);
-
-/** @param {string} code @param {RegExp} [message] */
-const error = (code, message = /./) => (/** @type {unknown} */ thrown) => {
-  assert.ok(thrown instanceof direct.DevelopableError, String(thrown));
-  assert.equal(thrown.code, code);
-  assert.match(thrown.message, message);
-  return true;
-};
 
 test('they have a wasm of their own', async () => {
   assert.throws(() => direct.unroll(page), error('NOT_INITIALIZED', /load\('unroll'\)/));

@@ -14,6 +14,7 @@ import { STLLoader } from 'three/addons/loaders/STLLoader.js';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
+import { error } from './support/error.mjs';
 
 after(() => developable.dispose());
 await Promise.all([direct.init(), direct.load('files', 'meshes')]);
@@ -161,12 +162,6 @@ test('colours and texture coordinates go through a solve', async () => {
 });
 
 test('what is wrong is said', async () => {
-  /** @param {string} code @param {RegExp} message */
-  const error = (code, message) => (/** @type {any} */ thrown) => {
-    assert.equal(thrown.code, code, String(thrown));
-    assert.match(thrown.message, message);
-    return true;
-  };
   const any = /** @type {any} */ (field);
   assert.throws(() => direct.writePly({ ...field, colors: new Float32Array(9) }), error('SHAPE', /colors has 9 values.*90/));
   assert.throws(() => direct.writePly({ ...field, uvs: new Float32Array(7) }), error('SHAPE', /uvs has 7 values.*60/));

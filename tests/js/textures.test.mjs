@@ -6,6 +6,7 @@ import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
+import { error } from './support/error.mjs';
 import { withExif } from './support/exif.mjs';
 
 after(() => developable.dispose());
@@ -52,13 +53,6 @@ function isSheet(bytes) {
   assert.ok(bytes instanceof Uint8Array && bytes.length - png.length < 4);
   assert.deepEqual(bytes.subarray(0, png.length), png);
 }
-
-/** @param {string} code @param {RegExp} [message] */
-const error = (code, message = /./) => (/** @type {any} */ thrown) => {
-  assert.equal(thrown.code, code, String(thrown));
-  assert.match(thrown.message, message);
-  return true;
-};
 
 test('the colours of a textured mesh, through a solve and into files', async () => {
   for (const mesh of [direct.readMesh(obj, { files }), direct.readMesh(glb)]) {

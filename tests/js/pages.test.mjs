@@ -347,7 +347,8 @@ test('photos come as files, corners as points, and options without edges', async
   assert.deepEqual(byCorners, direct.dewarpPage(sheet, { top: [a, b], bottom: [d, c], left: [a, d], right: [b, c] }, known));
   assert.deepEqual(await developable.dewarpPage(sheet, corners, known), byCorners);
   // The edges are traced in the photo, or straight if that is asked for.
-  const straight = direct.dewarpPage(sheet, corners, { ...known, traceEdges: false });
+  const asGiven = { ...known, traceEdges: false, findLines: false };
+  const straight = direct.dewarpPage(sheet, corners, asGiven);
   const points = (/** @type {typeof flat} */ { edges: [{ top, left }] }) => [top, left].map((edge) => (Array.isArray(edge) ? edge.length : 0));
   assert.deepEqual(points(straight), [2, 2]);
   assert.ok(points(byCorners).every((count) => count > 50), `${points(byCorners)}`);
@@ -360,10 +361,11 @@ test('photos come as files, corners as points, and options without edges', async
   const address = `http://127.0.0.1:${port}/`;
   try {
     for (const source of [png, new Uint8Array(png).buffer, new Blob([png]), new File([png], 'a.png'), new Response(png), address, new URL(address)]) {
-      assert.deepEqual(await developable.dewarpPage(source, known), flat, String(source));
+      assert.deepEqual(await developable.dewarpPage(source, corners, asGiven), straight, String(source));
       // A response can be read once.
       assert.deepEqual(await developable.readPhoto(source instanceof Response ? new Response(png) : source), direct.readPhoto(png));
     }
+    assert.deepEqual(await developable.dewarpPage(new File([png], 'a.png'), known), flat);
     assert.deepEqual(await developable.findPage(new Blob([png])), direct.findPage(sheet));
     assert.deepEqual(direct.dewarpPage(png, known), flat);
   } finally {

@@ -10,6 +10,7 @@ import { run, temporaryFolder } from './support/command.mjs';
 import { readPdf } from './support/drawings.mjs';
 import { error } from './support/error.mjs';
 import { withExif } from './support/exif.mjs';
+import { photoOf } from './support/shapes.mjs';
 
 after(() => developable.dispose());
 
@@ -35,14 +36,7 @@ const across = (t) => Array.from({ length: 21 }, (_, i) => seen(i / 20, t));
 const edges = { top: across(0), bottom: across(1) };
 
 /** Red from left to right, green from top to bottom: each pixel says where it is. */
-const photo = {
-  width,
-  height,
-  data: Uint8ClampedArray.from({ length: 4 * width * height }, (_, i) => {
-    const [x, y] = [Math.floor(i / 4) % width, Math.floor(i / 4 / width)];
-    return [x / 2, y / 3, 0, 255][i % 4];
-  }),
-};
+const photo = photoOf(width, height, (x, y) => [x / 2, y / 3, 0, 255]);
 
 await direct.init();
 await direct.load('files', 'images', 'unroll', 'meshes');
@@ -323,16 +317,12 @@ test('lines of text, and all four edges', async () => {
 });
 
 /** A white page with lines of text on a dark table, seen from above. */
-const sheet = {
-  width: 600,
-  height: 700,
-  data: Uint8ClampedArray.from({ length: 4 * 600 * 700 }, (_, i) => {
-    const [x, y] = [Math.floor(i / 4) % 600, Math.floor(i / 4 / 600)];
-    const onPage = x >= 100 && x < 500 && y >= 80 && y < 646;
-    const onText = x >= 140 && x < 460 && y >= 120 && y < 500 && y % 16 < 5 && x % 40 < 32;
-    return i % 4 === 3 ? 255 : onPage ? (onText ? 60 : 230) : 70;
-  }),
-};
+const sheet = photoOf(600, 700, (x, y) => {
+  const onPage = x >= 100 && x < 500 && y >= 80 && y < 646;
+  const onText = x >= 140 && x < 460 && y >= 120 && y < 500 && y % 16 < 5 && x % 40 < 32;
+  const grey = onPage ? (onText ? 60 : 230) : 70;
+  return [grey, grey, grey, 255];
+});
 
 test('photos come as files, corners as points, and options without edges', async () => {
   const known = /** @type {const} */ ({ focalLength: 700, page: 'a4', dots: 1 });

@@ -9,20 +9,14 @@ import { run, temporaryFolder } from './support/command.mjs';
 import { readPdfPicture, readPdfWords } from './support/drawings.mjs';
 import { error } from './support/error.mjs';
 import { depthCamera, depths, photo as taken, photoCamera } from './support/phone.mjs';
+import { photoOf } from './support/shapes.mjs';
 
 after(() => developable.dispose());
 await Promise.all([direct.init(), direct.load('files', 'images', 'meshes', 'unroll')]);
 
 const [width, height] = [90, 70];
 /** Red from left to right, green from top to bottom; its lower third is transparent. */
-const picture = {
-  width,
-  height,
-  data: Uint8ClampedArray.from({ length: 4 * width * height }, (_, i) => {
-    const [x, y] = [Math.floor(i / 4) % width, Math.floor(i / 4 / width)];
-    return [2 * x, 3 * y, 40, y < 48 ? 255 : 0][i % 4];
-  }),
-};
+const picture = photoOf(width, height, (x, y) => [2 * x, 3 * y, 40, y < 48 ? 255 : 0]);
 
 /** What a PNG's pHYs chunk states, in pixels per millimetre. @param {Uint8Array} file */
 function pngDensity(file) {

@@ -34,6 +34,13 @@ export function lattice(rows, cols, f, spacing = 1) {
   return { rows, cols, spacing, heights };
 }
 
+/** A photo of such colours (red, green, blue, alpha). @param {number} width @param {number} height @param {(x: number, y: number) => number[]} colour */
+export function photoOf(width, height, colour) {
+  const data = new Uint8ClampedArray(4 * width * height);
+  for (let i = 0; i < width * height; i += 1) data.set(colour(i % width, Math.floor(i / width)), 4 * i);
+  return { width, height, data };
+}
+
 /** @type {(x: number, y: number) => number} */
 export const plane = (x, y) => 5 + 0.3 * x - 0.2 * y;
 

@@ -14,6 +14,11 @@ export class Events {
     listeners.push(listener);
   }
 
+  /** Resolves with the next of some events. @param {...keyof E} events */
+  next(...events) {
+    return new Promise((resolve) => events.forEach((event) => this.on(event, resolve)));
+  }
+
   /**
    * Calls the listeners of an event; for subclasses.
    * @protected

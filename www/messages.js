@@ -158,7 +158,7 @@ export const SHEET_WORDS = {
   headline: (side, pages, joints, smallest) =>
     `Cut-out sheets: ${side} mm, ${countOf(pages, 'page')}, ${countOf(joints, 'joint')}${smallest ? `, smallest sheet ${smallest} mm` : ''}`,
   /** @param {string} smallest */
-  small: (smallest) => `Hard to build: the smallest sheet is ${smallest} mm long. Make it larger, or its pieces simpler by less detail.`,
+  small: (smallest) => `Hard to build: the smallest sheet is ${smallest} mm long. Make it larger, or its pieces simpler.`,
   /** @param {number} pages */
   manyPages: (pages) => `These are ${count(pages)} pages. Is the unit of the file right? A smaller longer side needs fewer.`,
   upperSide: 'The surface is the upper side of the metal.',

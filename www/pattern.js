@@ -87,11 +87,6 @@ export function sheetsInWords({ summary: { sheets, seams, folds, slits, strain, 
   return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}${fold}${cut}.${slit}${stretch}${without}${bare}${nameless}`;
 }
 
-/** Longer side of the smallest sheet of a drawing, in millimetres. @param {Drawing} drawing */
-export function smallestPiece({ sheets }) {
-  return Math.min(...sheets.map(({ bounds: [[left, bottom], [right, top]] }) => Math.max(right - left, top - bottom)));
-}
-
 /**
  * Figures of a drawing: names and values.
  * @param {Drawing} drawing

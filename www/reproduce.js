@@ -13,9 +13,7 @@ export const CITATION = `@article{sellan2020developability,
 `;
 
 /** Whether the heights are those of a file or an example. @param {Input} input */
-function isUnchanged({ sampling, depths }) {
-  return !(sampling || depths);
-}
+const isUnchanged = ({ sampling, depths }) => !(sampling || depths);
 
 /** The options of `fit` that solve the same, without those that are the package's own. @param {Result} result */
 function optionsOf({ input, settings }) {

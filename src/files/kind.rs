@@ -186,8 +186,11 @@ pub(super) fn refused(bytes: &[u8], purpose: Purpose) -> Error {
     } else if let Some((name, advice)) = foreign(bytes) {
         (name, advice.into())
     } else {
-        let mut head = bytes.iter().take(HEAD_BYTES);
-        let is_text = head.all(|byte| *byte >= b' ' || byte.is_ascii_whitespace());
+        let head = &bytes[..bytes.len().min(HEAD_BYTES)];
+        let is_printed = |byte: &u8| *byte >= b' ' || byte.is_ascii_whitespace();
+        // UTF-8, whose last letter may be cut.
+        let is_text = head.iter().all(is_printed)
+            && !std::str::from_utf8(head).is_err_and(|at| at.error_len().is_some());
         let name = if is_text {
             "text"
         } else {

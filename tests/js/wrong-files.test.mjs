@@ -42,6 +42,8 @@ const FOREIGN = [
   ['version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n', /^pointer of Git LFS/, /git lfs pull/],
   ['Dear Sir or Madam,\nplease find attached the letter.\n', /^text/, /read from/],
   ['\x07\x07\x07\x07\x07\x07\x07\x07', /^a file of unknown format/, /read from/],
+  // Numbers in 32 bits, each of whose bytes might be a letter.
+  ['\xb0\xfa*\xbf\xba\x9a+\xbf', /^a file of unknown format/, /read from/],
 ];
 
 /**

@@ -53,10 +53,10 @@ pageTest('everything can be done by keyboard', async (page) => {
   await page.keyboard.press('Enter');
   await tabTo(page, 'input[name="save-format"]');
   await page.keyboard.press('ArrowUp');
-  await page.locator('#save-size', { hasText: /npy, \d/ }).waitFor();
+  await page.locator('#save-size', { hasText: /exr, \d/ }).waitFor();
   await tabTo(page, '#save-now');
   const [download] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('Enter')]);
-  assert.match(download.suggestedFilename(), /\.npy$/);
+  assert.match(download.suggestedFilename(), /\.exr$/);
   await page.keyboard.press('Escape');
   assert.equal(await page.evaluate(() => document.activeElement?.id), 'end-file', 'the focus is back');
 

@@ -6,7 +6,7 @@ import { sheetsInWords } from '../../www/pattern.js';
 import { edgeAt, parsePairs, togglePair } from '../../www/sheet-edges.js';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { doorTest, openWhole, workBy } from './support/page.mjs';
+import { doorTest, openWhole, pageTest, workBy } from './support/page.mjs';
 
 /** A box of 60 × 40 × 20: its faces by number, the largest first, come in opposite pairs. */
 const SIDES = [60, 40, 20];
@@ -54,6 +54,18 @@ test('what of a surface is on no sheet is said, and which cuts have no tab or le
   assert.equal(said({}), '2 sheets, to be joined along 3 cuts.');
   assert.equal(said({ unlettered: 2 }), '2 sheets, to be joined along 3 cuts. 2 cuts have no room for a letter.');
   assert.match(said({ missing: { vertices: 4, area: 1200, steps: 1, stepArea: 300 }, untabbed: 1 }), /15 cm² of the surface.* are on no sheet\. One cut has no room for a tab\.$/);
+});
+
+pageTest('less detail makes simpler pieces while their sheets are shown', async (page) => {
+  const [side, written] = [page.getByLabel('Longer side when finished, mm'), page.locator('#save-size')];
+  await page.locator('#end-sheets').click();
+  await written.filter({ hasText: /-sheets\.pdf, / }).waitFor();
+  await side.fill('150');
+  await page.locator('#save-title', { hasText: '150 mm' }).waitFor();
+  await page.getByLabel('Pieces: simpler').press('Home');
+  await written.filter({ hasText: /-1e3-sheets\.pdf, / }).waitFor();
+  assert.equal(await side.inputValue(), '150');
+  assert.match(await page.locator('#result-caption').innerText(), /1e3/);
 });
 
 doorTest('a fold that is clicked in the drawing is cut', async (page) => {

@@ -47,7 +47,7 @@ doorTest('the camera is assumed until its file is opened', async (page) => {
   // A tenth of a millimetre.
   await page.getByLabel('Depth scale').fill('0.0001');
   await page.getByLabel('Depth scale').press('Tab');
-  assert.match(await page.locator('#camera-span').innerText(), /0\.3\d* to 0\.\d+ away/);
+  assert.match(await page.locator('#camera-span').innerText(), /0\.3\d* to 0\.\d+( m)? away/);
   const { fx, fy, cx, cy } = depthCamera;
   await page.locator('#camera-file').setInputFiles({ name: 'camera.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify({ fx, fy, cx, cy })) });
   await page.locator('#camera-about', { hasText: `centre ${cx}, ${cy}` }).waitFor();

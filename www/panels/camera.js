@@ -42,7 +42,7 @@ export function cameraPanel(session, openLoadedMesh) {
     about.textContent = fileCamera ? DEPTH_WORDS.camera(fileCamera) : '';
     const { low, high } = boxOf(input.data.filter((depth) => depth > 0 && depth < Infinity), 1);
     const [near, far] = [...low, ...high].map((depth) => depth * fields.number('camera-scale'));
-    span.textContent = Number.isFinite(near) ? `With this scale, what is seen is ${number(near)} to ${number(far)} away.` : '';
+    span.textContent = Number.isFinite(near) ? `With this scale, what is seen is ${number(near)} to ${number(far)}${input.depths ? ' m' : ''} away.` : '';
   };
   /** Shows the fields, filled with a typical camera, whose principal point is the middle of the image. */
   const show = () => {

@@ -78,8 +78,5 @@ export function headlinePanel(session, analyses, stage, heights) {
   session.on('failure', ({ doing, error }) => showError(doing, error));
 }
 
-/** Noise reduction, size and assumptions, for the line below the headline. @param {Session} session */
-function detailsOf({ input, result }) {
-  if (!input) return '';
-  return result?.input === input ? noiseReductionInWords(result.accuracy) : `${count(input.width * input.height)} pixels.`;
-}
+/** Noise reduction or size, for the line below the headline. @param {Session} session */
+const detailsOf = ({ input, result }) => (input && (result?.input === input ? noiseReductionInWords(result.accuracy) : `${count(input.width * input.height)} pixels.`)) ?? '';

@@ -21,8 +21,7 @@ const STEEL_LOOK = { up: [0, 0, 1], direction: [0.375, 0.687, -0.622], isMetal: 
 export function heightsPanel(session, analyses) {
   /** Input and result. @type {[Relief | null, Relief | null]} */
   const reliefs = [null, null];
-  /** @type {ReturnType<Subject['box']>} */
-  let box = null;
+  let box = /** @type {ReturnType<Subject['box']>} */ (null);
   let caption = '';
   /** @type {ReturnType<Subject['mark']>} */
   let mark = '';
@@ -64,7 +63,7 @@ export function heightsPanel(session, analyses) {
     run: () => void session.run(),
     cancel: () => session.cancel(),
     saveFile: () => session.result && offerFile(session.api, session.result),
-    cutSheets: () => session.result && offerResultSheets(session.api, session.result, analyses),
+    cutSheets: () => session.result && offerResultSheets(session, session.result, analyses, () => heights.cutSheets()),
   };
   const stage = stagePanel(heights);
 

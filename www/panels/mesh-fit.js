@@ -97,6 +97,9 @@ export function meshFitPanel(session, meshFit, stage, heights) {
         metalThickness: async () => (await meshFit.recognized(meshFit.mesh ?? surface)).thickness,
         canFoldElsewhere: ({ summary }) => summary.strain === 0,
         stop: () => meshFit.stop(),
+        isFitted: fitted() !== null,
+        solved: () => meshFit.next('result', 'failure', 'cancelled'),
+        again: () => whole.cutSheets(),
       });
     },
   };

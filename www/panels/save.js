@@ -26,10 +26,10 @@ export function offerFile(api, result) {
   });
 }
 
-/** Offers the result as sheets. @param {Api} api @param {Result} result @param {Analyses} analyses */
-export function offerResultSheets(api, result, analyses) {
+/** Offers the result as sheets. @param {Session} session @param {Result} result @param {Analyses} analyses @param {() => void} again offers those of the next result */
+export function offerResultSheets(session, result, analyses, again) {
   const hidden = result.input.lattice?.hidden;
-  offerSheets(api, {
+  offerSheets(session.api, {
     stem: fileStem(result),
     note: hidden ? MESH_FIT_WORDS.hidden(percent(hidden)) : '',
     length: longerSide(result),
@@ -39,6 +39,9 @@ export function offerResultSheets(api, result, analyses) {
     metalThickness: async () => undefined,
     canFoldElsewhere: () => false,
     stop: () => analyses.stop(),
+    isFitted: true,
+    solved: () => session.next('result', 'unsolved'),
+    again,
   });
 }
 

@@ -3,7 +3,7 @@ import { element, make, makeButton, SETTLING_MS } from '../dom.js';
 import { between, fieldsOf } from '../fields.js';
 import { number } from '../format.js';
 import { keep, kept } from '../kept.js';
-import { assemblyModel, drawingImage, MAX_SIDE_MM, MIN_SIDE_MM, MM_PER_UNIT, sheetFigures, sheetsInWords, smallestPiece, suggestedSide, trueSide } from '../pattern.js';
+import { assemblyModel, drawingImage, MAX_SIDE_MM, MIN_SIDE_MM, MM_PER_UNIT, sheetFigures, sheetsInWords, suggestedSide, trueSide } from '../pattern.js';
 import { hasCode, plainMessage } from '../error-messages.js';
 import { SHEET_WORDS } from '../messages.js';
 import { edgeAt, parsePairs, togglePair } from '../sheet-edges.js';
@@ -16,8 +16,9 @@ import { waitingPanel } from './waiting.js';
 
 /** Returns the error message for a text of pairs of pieces; empty if it is valid. @param {string} text */
 const faultOfPairs = (text) => (parsePairs(text) ? '' : SHEET_WORDS.wrongPairs);
-/** Fields of the dialog. @satisfies {Record<string, import('../fields.js').Field>} */
+/** Fields of the dialog; the first is a slider. @satisfies {Record<string, import('../fields.js').Field>} */
 const FIELDS = {
+  'sheet-detail': { label: 'Pieces: simpler ↔ closer to the input' },
   'sheet-unit': { label: 'Unit of its lengths', options: { ...Object.fromEntries(Object.keys(MM_PER_UNIT).map((name) => [name, SHEET_WORDS.unit(name)])), none: 'none: choose the size' } },
   'sheet-side': { label: 'Longer side when finished, mm', range: between(MIN_SIDE_MM, MAX_SIDE_MM) },
   'sheet-paper': { label: 'Paper', options: { a4: 'A4', letter: 'Letter', '': 'one large page' } },
@@ -38,7 +39,7 @@ const lastOptions = {
   'sheet-thickness': '1', 'sheet-radius': '', 'sheet-k': '0.44', 'sheet-kerf': '0', ...kept('sheets', {}),
 };
 const REMEMBERED = /** @type {readonly (keyof typeof lastOptions)[]} */ (Object.keys(lastOptions));
-/** Sizes and units that were chosen last, by the stem of the file's name. @type {Map<string, { side: number, unit: string }>} */
+/** Sizes and units that were chosen last, by the name of the input. @type {Map<string, { side: number, unit: string }>} */
 const lastSizes = new Map();
 /** Length of a piece below which it can hardly be held, folded and glued, in millimetres. */
 const MIN_HANDY_PIECE_MM = 10;
@@ -57,6 +58,9 @@ const MAX_EXPECTED_PAGES = 12;
  * @property {() => Promise<number | undefined>} metalThickness thickness of a solid of sheet metal, in the input's unit
  * @property {(drawing: Drawing) => boolean} canFoldElsewhere whether other edges of a drawing may be cut and joined: of flat faces, of which nothing is stretched
  * @property {() => void} stop cancels the pattern that is being computed
+ * @property {boolean} isFitted whether less detail makes simpler pieces
+ * @property {() => Promise<unknown>} solved resolves when the next solve has ended
+ * @property {() => void} again offers the sheets of what was solved then
  */
 
 /**
@@ -64,15 +68,18 @@ const MAX_EXPECTED_PAGES = 12;
  * @param {Api} api
  * @param {SheetSource} source
  */
-export function offerSheets(api, { stem, note = '', length, unit, up, cut, metalThickness, canFoldElsewhere, stop }) {
+export function offerSheets(api, { stem, note = '', length, unit, up, cut, metalThickness, canFoldElsewhere, stop, isFitted, solved, again: offerAgain }) {
   const suggested = suggestedSide(length, unit);
   // A size that is not the true one goes by no unit.
-  const last = lastSizes.get(stem) ?? { unit: suggested === trueSide(length, unit) ? unit : 'none', side: suggested };
+  const [name] = stem.split('-developable');
+  const last = lastSizes.get(name) ?? { unit: suggested === trueSide(length, unit) ? unit : 'none', side: suggested };
   const fields = fieldsOf(FIELDS);
-  for (const name of REMEMBERED) fields.set(name, lastOptions[name]);
+  for (const option of REMEMBERED) fields.set(option, lastOptions[option]);
   fields.set('sheet-unit', last.unit);
   fields.set('sheet-side', last.side);
   fields.show(unit !== 'none', 'sheet-unit');
+  const [detail, pageDetail] = [fields.control('sheet-detail'), element('lambda', HTMLInputElement)];
+  Object.assign(detail, { type: 'range', min: pageDetail.min, max: pageDetail.max, step: pageDetail.step, value: pageDetail.value });
   const side = () => fields.number('sheet-side');
   const paper = () => /** @type {'a4' | 'letter' | ''} */ (fields.text('sheet-paper'));
   const isMetal = () => fields.text('sheet-material') !== '';
@@ -135,7 +142,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
   /** Shows the size of the finished surface and the number of pages. @param {Drawing} finished */
   const showSize = (finished) => {
     const { summary } = finished;
-    const smallest = smallestPiece(finished);
+    const smallest = Math.min(...finished.sheets.map(({ bounds: [[left, bottom], [right, top]] }) => Math.max(right - left, top - bottom)));
     const stock = paper();
     const pages = stock === '' ? 1 : summary[stock];
     element('save-title', HTMLElement).textContent = SHEET_WORDS.headline(number(side(), 4), pages, summary.seams, finished.sheets.length > 1 ? number(smallest, 2) : undefined);
@@ -157,7 +164,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
       pageWarning.hidden = true;
       return offer.renew();
     }
-    lastSizes.set(stem, { side: side(), unit: fields.text('sheet-unit') });
+    lastSizes.set(name, { side: side(), unit: fields.text('sheet-unit') });
     keepOptions();
     status.textContent = '';
     again.hidden = true;
@@ -214,6 +221,18 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
     fields.set(name, togglePair(fields.text(name), edge.pair));
     void draw();
   };
+  detail.addEventListener('change', async () => {
+    setMissing('');
+    preview.setAttribute('aria-busy', 'true');
+    waiting.begin('solving');
+    offer.renew();
+    const end = solved();
+    pageDetail.value = detail.value;
+    for (const event of ['input', 'change']) pageDetail.dispatchEvent(new Event(event));
+    await end;
+    // The dialog may be closed by then.
+    if (options.isConnected) offerAgain();
+  });
   let inputTimer = 0;
   const options = make('div', 'sheets-options',
     status,
@@ -222,6 +241,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
     ...(note ? [make('p', 'small', note)] : []),
     waitingElement,
     again,
+    ...(isFitted ? fields.nodes('sheet-detail') : []),
     ...fields.nodes('sheet-unit', 'sheet-side', 'sheet-paper', 'sheet-material', 'sheet-tabs', 'sheet-tab-depth'),
     metalNote,
     ...fields.nodes('sheet-thickness', 'sheet-radius', 'sheet-k', 'sheet-kerf'),
@@ -229,6 +249,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
     make('details', 'more', make('summary', '', SHEET_WORDS.figures), about));
   options.addEventListener('input', ({ target }) => {
     clearTimeout(inputTimer);
+    if (target === detail) return;
     if (target === fields.control('sheet-paper')) {
       keepOptions();
       void drawing.then(showSize, () => {});

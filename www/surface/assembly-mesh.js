@@ -46,27 +46,3 @@ function applyPose([x, y, z], turn, shift) {
   const [u, v, t] = [2 * (b * z - c * y), 2 * (c * x - a * z), 2 * (a * y - b * x)];
   return [x + w * u + b * t - c * v + shift[0], y + w * v + c * u - a * t + shift[1], z + w * t + a * v - b * u + shift[2]];
 }
-
-/**
- * The singular values of each triangle's map from space to the plane, the larger one first.
- * @param {{ positions: Float64Array, places: Float64Array, triangles: Uint32Array }} mesh
- */
-export function principalStretches({ positions, places, triangles }) {
-  const stretches = new Float64Array((2 * triangles.length) / 3);
-  for (let t = 0; t < triangles.length; t += 3) {
-    const [i, j, k] = triangles.subarray(t, t + 3);
-    const edge = (/** @type {number} */ to) => [0, 1, 2].map((d) => positions[3 * to + d] - positions[3 * i + d]);
-    const [e, f] = [edge(j), edge(k)];
-    const [ax, ay, bx, by] = [j, k].flatMap((to) => [places[2 * to] - places[2 * i], places[2 * to + 1] - places[2 * i + 1]]);
-    const dot = (/** @type {number[]} */ p, /** @type {number[]} */ q) => p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-    const [ee, ef, ff] = [dot(e, e), dot(e, f), dot(f, f)];
-    const determinant = ee * ff - ef * ef;
-    // Eigenvalues of the sheet's metric relative to the surface's metric: the squares of the singular values.
-    const [p, q, r] = [ax * ax + ay * ay, ax * bx + ay * by, bx * bx + by * by];
-    const half = (ff * p - 2 * ef * q + ee * r) / (2 * determinant);
-    const root = Math.sqrt(Math.max(0, half * half - (p * r - q * q) / determinant));
-    stretches[(2 * t) / 3] = determinant > 0 ? Math.sqrt(half + root) : 1;
-    stretches[(2 * t) / 3 + 1] = determinant > 0 ? Math.sqrt(Math.max(0, half - root)) : 1;
-  }
-  return stretches;
-}

@@ -1,6 +1,6 @@
 /** Layers over a surface: its colours, and lines. */
 import { interpolatorOf } from './lattice.js';
-import { interpolateAt, vertexColors } from './triangles.js';
+import { interpolateAt } from './triangles.js';
 
 /** @import {Lattice} from './lattice.js' */
 /** @import {Place, Surface} from './scene.js' */
@@ -40,15 +40,6 @@ export function canvasFromImage(image) {
   return canvas;
 }
 
-/**
- * A canvas with pixels.
- * @param {{ width: number, height: number }} size
- * @param {Uint32Array} pixels in the byte order of a canvas
- */
-export function canvasFromPixels({ width, height }, pixels) {
-  return canvasFromImage(new ImageData(new Uint8ClampedArray(/** @type {ArrayBuffer} */ (pixels.buffer)), width, height));
-}
-
 /** @typedef {{ at: (vertex: number, x: number, y: number) => number, read: (place: Place) => number }} Field values at the vertices that are drawn, and under the pointer */
 
 /** Colour of places without a value: that of steel. @type {Colour} */
@@ -67,11 +58,13 @@ export function meshField(mesh, values) {
 
 /** Colours a surface by values at its vertices. @param {Field['at']} at @param {(value: number) => Colour} colourOf @returns {NonNullable<Layer['surface']>} */
 export function colouredBy(at, colourOf) {
-  return (plain) => ({
-    ...plain,
-    colors: vertexColors(plain.positions.length / 3, (i) => {
-      const value = at(i, plain.positions[3 * i], plain.positions[3 * i + 1]);
-      return Number.isNaN(value) ? NO_VALUE_COLOUR : colourOf(value);
-    }),
-  });
+  return (plain) => {
+    const { positions } = plain;
+    const colors = new Float32Array(positions.length);
+    for (let i = 0; i < positions.length; i += 3) {
+      const value = at(i / 3, positions[i], positions[i + 1]);
+      colors.set(Number.isNaN(value) ? NO_VALUE_COLOUR : colourOf(value), i);
+    }
+    return { ...plain, colors: colors.map((channel) => channel / 255) };
+  };
 }

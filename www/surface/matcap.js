@@ -46,11 +46,9 @@ export function fillMatcap(texels, [lx, ly, lz], { isMetal, isPale }) {
   const [r, g, b] = isMetal || isPale ? [255, 255, 255] : PAPER_COLOUR;
   for (let j = 0, i = 0; j < MATCAP_SIDE_TEXELS; j++) {
     for (let k = 0; k < MATCAP_SIDE_TEXELS; k++, i += 4) {
-      const x = k * step - 1 / DISK_RADIUS;
-      const y = j * step - 1 / DISK_RADIUS;
+      const [x, y] = [k * step - 1 / DISK_RADIUS, j * step - 1 / DISK_RADIUS];
       const outside = Math.max(1, Math.sqrt(x * x + y * y));
-      const nx = x / outside;
-      const ny = y / outside;
+      const [nx, ny] = [x / outside, y / outside];
       const nz = Math.sqrt(Math.max(0, 1 - nx * nx - ny * ny));
       const facing = nx * lx + ny * ly + nz * lz;
       // The cosine between the light and the view (0, 0, 1) mirrored at the normal, or the normal itself.

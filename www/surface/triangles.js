@@ -65,13 +65,6 @@ export function interpolateAt({ triangles }, { triangle, shares }, value) {
   return shares.reduce((sum, share, corner) => sum + share * value(triangles[3 * triangle + corner]), 0);
 }
 
-/** Colours of vertices, as a renderer needs them. @param {number} length @param {(i: number) => Colour} colour */
-export function vertexColors(length, colour) {
-  const colors = new Float32Array(3 * length);
-  for (let i = 0; i < length; i++) colors.set(colour(i).map((value) => value / 255), 3 * i);
-  return colors;
-}
-
 /** The edges with a triangle on one side only, in its direction. @param {Uint32Array} triangles @returns {[number, number][]} */
 export function borderEdges(triangles) {
   const count = triangles.reduce((most, vertex) => Math.max(most, vertex), 0) + 1;

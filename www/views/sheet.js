@@ -1,7 +1,7 @@
 /** The view of a surface laid flat as it is, to scale and coloured by strain, of heights and meshes. */
 import { areaUnit, count, number, numberAgainst, percent, signedPercent } from '../format.js';
 import { linearScale } from '../surface/colours.js';
-import { canvasFromPixels } from '../surface/layer.js';
+import { canvasFromImage } from '../surface/layer.js';
 import { imagePicture } from '../surface/picture-view.js';
 import { callWorker } from '../surface/worker-client.js';
 import { VERDICTS } from '../messages.js';
@@ -62,7 +62,7 @@ function sheet(picture, unit, said, facts) {
  * @returns {Picture}
  */
 function pictureOf({ width, height, pixelsPerUnit, pixels, values }, unit, words) {
-  const picture = imagePicture(canvasFromPixels({ width, height }, pixels), words, (x, y) => {
+  const picture = imagePicture(canvasFromImage(new ImageData(new Uint8ClampedArray(pixels.buffer), width, height)), words, (x, y) => {
     const strain = values[Math.floor(y) * width + Math.floor(x)];
     return Number.isNaN(strain) ? '' : `strain ${signedPercent(strain)}`;
   });

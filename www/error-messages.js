@@ -32,5 +32,5 @@ export function plainMessage(error) {
     .replace(/^this file: /, '')
     .replace(/; heights are read from .*$/, `. ${OPENED_FILES}`)
     .replace(/^EXR: too new file feature flags$/, 'this EXR file is of a kind that is not read; save it as a plain one, with one layer')
-    .replace(/\.$/, '');
+    .replace(/`([^`]*)`/g, '“$1”').replace(/\.$/, '');
 }

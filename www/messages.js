@@ -74,7 +74,7 @@ export const DEPTH_WORDS = {
 /** What a reader has assumed of a file, as a sentence; empty if nothing. @param {readonly Assumption[]} [assumptions] */
 export function assumedInWords(assumptions = []) {
   const words = assumptions.map((one) => one.words.replace(/(?<![.\d])\d{5,}(?![.\d])/g, (digits) => count(Number(digits)))
-    .replace(/\d+\.\d{8,}/g, (digits) => number(Number(digits), 4)));
+    .replace(/\d+\.\d{8,}/g, (digits) => number(Number(digits), 4)).replace(/`([^`]*)`/g, '“$1”'));
   return words.length > 0 ? `Assumed: ${words.join('; ')}.` : '';
 }
 

@@ -20,7 +20,7 @@ test('no message has the words of a library', () => {
     ['cannot read this as JPEG: "[strict-mode]: Extra bytes between headers"', /JPEG/],
     ['cannot read this as glTF: expected value at line 1 column 360', /glTF/],
     ['cannot read this as OBJ: line 4 names the vertex 9, which is not there', /^line 4 names the vertex 9, which is not there; copy, download/],
-    ['vertex position of the mesh is inf at row 9, column 0; rows are vertices', /vertex 10/],
+    ['NPZ: array `prices`: an array of shape (7)', /^NPZ: array “prices”: an array/], ['vertex position of the mesh is inf at row 9, column 0; rows are vertices', /vertex 10/],
   ])) {
     assert.match(plainMessage(said), means);
     assert.doesNotMatch(plainMessage(said), /[{}[\]"]|Error|EOCD|parse|strict|column/);
@@ -30,8 +30,8 @@ test('no message has the words of a library', () => {
 
 test('what a reader has assumed is one sentence', () => {
   assert.equal(assumedInWords([]), '');
-  const assumptions = [{ code: 'noData', words: '-9999 is no data (412 pixels)', option: 'noData' }, { code: 'unit', words: 'lengths are in millimetres' }];
-  assert.equal(assumedInWords(assumptions), 'Assumed: -9999 is no data (412 pixels); lengths are in millimetres.');
+  const assumptions = [{ code: 'noData', words: '-9999 is no data (412 pixels)', option: 'noData' }, { code: 'unit', words: '`mm` is meant' }];
+  assert.equal(assumedInWords(assumptions), 'Assumed: -9999 is no data (412 pixels); “mm” is meant.');
   assert.equal(assumedInWords([{ code: 'square', words: 'pixels are 30.880698999242973 wide' }]), 'Assumed: pixels are 30.88 wide.');
   assert.equal(assumedInWords([{ code: 'noData', words: '0.123456 is no data (127493 pixels)' }]), 'Assumed: 0.123456 is no data (127\u202f493 pixels).');
 });

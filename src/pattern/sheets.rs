@@ -56,7 +56,8 @@ pub struct Sheet {
     pub outlines: Vec<Vec<Run>>,
     /// Lines along which the sheet is folded, in the order of their creases' numbers.
     pub folds: Vec<Fold>,
-    /// For each patch, in the order of the patches, a place for its label far from the patch's border.
+    /// For each patch, in the order of the patches, a place for its label far from the patch's border. Parts of one patch that were
+    /// joined again have one label, with the lowest of their numbers.
     pub spots: Vec<Spot>,
     /// Triangles of the sheet, with their positions on the surface and in the plane.
     pub faces: Faces,
@@ -71,7 +72,7 @@ pub struct Sheet {
     /// Distance of the refolded sheet from the surface; `None` unless
     /// [`PatternOptions::refold`](super::PatternOptions::refold) is set.
     pub refolding: Option<Refolding>,
-    /// Whether the sheet consists of faces moved into the plane as they are, so that its lines are drawn without smoothing.
+    /// Whether the sheet consists of faces moved into the plane as they are, so that its arcs are those of circles.
     pub exact: bool,
 }
 

@@ -1,5 +1,7 @@
 //! The sheets of a mesh that was cut into parts and joined.
 
+use rustc_hash::FxHashSet;
+
 use super::body::Body;
 use super::join::Joined;
 use super::junction::Junctions;
@@ -8,10 +10,11 @@ use super::refold::refold_sheet;
 use super::seams::Seams;
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
+use crate::math::union_find::UnionFind;
 use crate::pattern::crumbs::remove_crumbs;
 use crate::pattern::flat_mesh::FlatMesh;
 use crate::pattern::motion::Motion;
-use crate::pattern::{Direction, Missing, Pattern, Seam, Sheet};
+use crate::pattern::{Direction, Missing, Pattern, Seam, Sheet, Spot};
 use crate::shape::patches::{Crease, Patch};
 use crate::unroll::flat_triangle::Point;
 
@@ -28,12 +31,16 @@ pub(super) fn draw_sheets(
 ) -> Result<Pattern> {
     let junctions = Junctions::new(body, seams, joined);
     let flat = flat_mesh(body, seams, joined);
+    let areas = body.areas();
+    let mut regions = smooth_regions(areas.len(), seams, joined)?;
     let sheet = |own: &Joined| {
         // A cut that is within the sheet and hardly opens is no outline, but a hole of the mesh is, however small.
         let least = |line: &[u32]| match line.iter().all(|side| seams.of(*side).is_some()) {
             true => body.spacing.powi(2),
             false => 0.0,
         };
+        let mut drawn = flat.sheet(&own.laid.members, least, |vertex| junctions.at(vertex));
+        label_regions(&mut drawn.spots, &mut regions);
         Ok(Sheet {
             spacing: body.spacing,
             area: own.laid.area,
@@ -43,11 +50,10 @@ pub(super) fn draw_sheets(
                 true => Some(refold_sheet(body, &own.laid)?),
                 false => None,
             },
-            ..flat.sheet(&own.laid.members, least, |vertex| junctions.at(vertex))
+            ..drawn
         })
     };
     let mut sheets = joined.iter().map(sheet).collect::<Result<Vec<Sheet>>>()?;
-    let areas = body.areas();
     let counted = flat.vertices_of_patches(areas.len());
     let patch = |(vertices, area): (usize, f64)| Patch { vertices, area };
     let patches: Vec<Patch> = counted.into_iter().zip(areas).map(patch).collect();
@@ -67,6 +73,29 @@ pub(super) fn draw_sheets(
         creases: seams.all.iter().map(crease).collect(),
         missing,
     })
+}
+
+/// The parts of a mesh that are one smooth region again, since they were joined along a cut inside of a patch.
+fn smooth_regions(parts: usize, seams: &Seams, joined: &[Joined]) -> Result<UnionFind> {
+    let mut regions = UnionFind::new("labels", parts)?;
+    let whole = joined.iter().flat_map(|sheet| &sheet.whole);
+    for seam in whole.map(|seam| &seams.all[*seam]) {
+        if seam.smooth {
+            regions.union(seam.parts[0], seam.parts[1]);
+        }
+    }
+    Ok(regions)
+}
+
+/// Keeps one label for each smooth region of a sheet, where it has most room, with the lowest number of the region's parts.
+fn label_regions(spots: &mut Vec<Spot>, regions: &mut UnionFind) {
+    spots.sort_by(|a, b| b.room.total_cmp(&a.room));
+    let mut labelled = FxHashSet::default();
+    spots.retain_mut(|spot| {
+        spot.patch = regions.find(spot.patch);
+        labelled.insert(spot.patch)
+    });
+    spots.sort_by_key(|spot| spot.patch);
 }
 
 /// The triangles of a mesh on its sheets, cut along the seams that are not joined.

@@ -100,16 +100,6 @@ export const drawing = {
       help: 'where the neutral line is within the thickness, from the inside of a bend (default 0.44)',
     },
   },
-  /** Maximum distance by which outlines and folds are smoothed, in mean edges of the mesh that is cut; 0 for none. */
-  smoothing: {
-    kind: number,
-    default: 0.5,
-    flag: {
-      section: 'shape',
-      value: 'SPACINGS',
-      help: 'maximum distance of smoothed lines from those found, in mean edges of the mesh that is cut; 0 draws these as they are (default 0.5)',
-    },
-  },
   /** Whether all texts are left out, except the names of sheets. */
   plain: { kind: flag, default: false, flag: { section: 'shape', help: 'without texts, except the names of sheets' } },
   /**

@@ -112,20 +112,6 @@ impl Curve {
         self.pieces().map(|piece| piece.length()).sum()
     }
 
-    /// Lists the curve's control points, each with its position along the curve as a share of the curve's length, from
-    /// 0 to 1; the inner control points of a piece count as lying at a third and two thirds of it.
-    pub(super) fn placed(&self) -> impl Iterator<Item = ([f64; 2], f64)> + '_ {
-        let whole = self.length().max(f64::MIN_POSITIVE);
-        let mut before = 0.0;
-        let mut shares = vec![0.0];
-        for piece in self.pieces() {
-            let long = piece.length();
-            shares.extend([1.0, 2.0, 3.0].map(|third| (before + third / 3.0 * long) / whole));
-            before += long;
-        }
-        self.0.iter().copied().zip(shares)
-    }
-
     /// Splits the curve at given positions, which are ascending shares of its length from 0 to 1, and returns the
     /// parts.
     pub(super) fn split(&self, shares: &[f64]) -> Vec<Curve> {

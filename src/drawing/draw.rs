@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use super::bend::apply_bend_allowance;
 use super::draft::{SeamAnnotations, letters};
-use super::joints::matched_lines;
 use super::label::{Label, LabelKind};
+use super::lines::Lines;
 use super::marks::mark_counts;
 use super::nest::Shape;
 use super::options::{DrawingOptions, MAX_SIZE};
@@ -56,10 +56,7 @@ impl Drawing {
     /// Draws sheets beside each other: in rows, the tallest first, ten millimetres apart.
     ///
     /// Cut creases are labelled with letters, the same on both sides; patches with their number, counted from 1;
-    /// folds with M or V and their angle. Both sides of a joint are drawn equally long, although strain makes them
-    /// differ: their lines are moved as little as possible, by at most [`DrawingOptions::smoothing`] and a
-    /// hundredth of their length. [`Totals::mismatch`] is the difference that remains where that is not enough or
-    /// lines would cross. With metal that is bent, or without smoothing, lines are not moved.
+    /// folds with M or V and their angle. [`Totals::mismatch`] is how much the two sides of a joint differ at most.
     ///
     /// Costs `O(points)` without tabs; each tab is compared with its whole sheet.
     ///
@@ -85,7 +82,7 @@ impl Drawing {
         let sheets: &[Sheet] = &(sheets.iter().enumerate())
             .map(|(number, sheet)| apply_bend_allowance(number, sheet, options))
             .collect::<Result<Vec<_>>>()?;
-        let lines = matched_lines(sheets, options);
+        let lines: Vec<Lines> = sheets.iter().map(|s| Lines::new(s, options)).collect();
         let marks = options.marks.map(|distance| mark_counts(&lines, distance));
         let outlines: Vec<_> = lines.iter().map(|own| &own.outlines[..]).collect();
         let sides = SeamSides::new(&outlines);

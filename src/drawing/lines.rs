@@ -4,8 +4,11 @@ use super::circle::with_arcs;
 use super::curve::Curve;
 use super::line::Line;
 use super::options::DrawingOptions;
-use super::smooth::{Smooth, smooth_lines};
+use super::smooth::curve_through;
 use crate::pattern::{Run, Sheet};
+
+/// Maximum distance of a drawn curve from the line that was laid flat, in mean edge lengths of the mesh that was cut.
+const CURVE_TOLERANCE_LENGTHS: f64 = 0.05;
 
 /// The outlines and folds of one sheet as smooth curves in millimetres, before the sheet is placed in the drawing.
 pub(super) struct Lines<'a> {
@@ -15,34 +18,22 @@ pub(super) struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     pub(super) fn new(sheet: &'a Sheet, options: &DrawingOptions) -> Self {
-        let scaled = |curve: &Curve| curve.mapped(|p| p.map(|v| options.scale * v));
-        let smooth = match sheet.exact {
-            true => Smooth {
-                outlines: (sheet.outlines.iter())
-                    .map(|outline| outline.iter().map(|run| with_arcs(&run.points)).collect())
-                    .collect(),
-                folds: sheet
-                    .folds
-                    .iter()
-                    .map(|fold| Curve::through(&fold.points))
-                    .collect(),
-            },
-            false => smooth_lines(sheet, options.smoothing),
+        let curve = |points: &[[f64; 2]]| {
+            let curve = match sheet.exact {
+                true => with_arcs(points),
+                false => curve_through(points, CURVE_TOLERANCE_LENGTHS * sheet.spacing),
+            };
+            curve.mapped(|p| p.map(|v| options.scale * v))
         };
-        let runs = |(outline, curves): (&'a Vec<Run>, &Vec<Curve>)| {
-            outline.iter().zip(curves.iter().map(scaled)).collect()
+        let runs = |outline: &'a Vec<Run>| {
+            let runs = outline.iter();
+            runs.map(|run| (run, curve(&run.points))).collect()
         };
-        let folds = sheet.folds.iter().zip(&smooth.folds);
+        let folds = sheet.folds.iter().filter(|fold| fold.is_made());
         Lines {
-            outlines: sheet
-                .outlines
-                .iter()
-                .zip(&smooth.outlines)
-                .map(runs)
-                .collect(),
+            outlines: sheet.outlines.iter().map(runs).collect(),
             folds: folds
-                .filter(|(fold, _)| fold.is_made())
-                .map(|(fold, curve)| Line::of_fold(fold, scaled(curve), options))
+                .map(|fold| Line::of_fold(fold, curve(&fold.points), options))
                 .collect(),
         }
     }

@@ -21,16 +21,13 @@
 mod angles;
 mod bend;
 mod bending;
-mod border_side;
 mod circle;
 mod curve;
 mod draft;
 mod draw;
-mod joints;
 mod label;
 mod leader;
 mod line;
-mod line_corners;
 mod lines;
 mod loops;
 mod marks;
@@ -42,7 +39,6 @@ mod pages;
 mod sheet;
 mod simplify;
 mod smooth;
-mod spline;
 mod tabs;
 mod totals;
 
@@ -58,6 +54,4 @@ pub use options::{DrawingOptions, MAX_SIZE};
 pub(crate) use pack::beside;
 pub use pages::{MAX_PAGES, Page, Pages, Stock};
 pub use sheet::{DrawnSheet, PrintedTriangle};
-#[cfg(feature = "patterns")]
-pub(crate) use smooth::smooth;
 pub use totals::{Totals, WorstJoint};

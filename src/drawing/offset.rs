@@ -4,7 +4,7 @@ use super::circle::with_arcs;
 use super::curve::{CIRCLE_TOLERANCE_MM, Curve, MIN_CORNER_TURN};
 use super::line::FLATTENING_TOLERANCE_MM;
 use super::loops::remove_loops;
-use super::smooth::smooth;
+use super::smooth::curve_through;
 use crate::math::planar::polygon_area;
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
@@ -51,7 +51,7 @@ pub(super) fn offset_outwards(curves: &[Curve], distance: f64, exact: bool) -> O
         let closed: Vec<[f64; 2]> = closed.map(|p| [p.re, p.im]).collect();
         match exact {
             true => with_arcs(&closed),
-            false => smooth(&closed, FLATTENING_TOLERANCE_MM, OFFSET_DETAIL_MM),
+            false => curve_through(&closed, FLATTENING_TOLERANCE_MM),
         }
     };
     Some(moved.into_iter().map(curve).collect())

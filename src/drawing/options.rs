@@ -1,9 +1,9 @@
-//! Options of a drawing: its scale, tabs, marks, kerf, allowance and smoothing.
+//! Options of a drawing: its scale, tabs, marks, kerf and allowance.
 
 use super::bending::Bending;
 use crate::error::{Error, Result, positive};
 
-/// Options of a drawing: its scale, its tabs and marks, kerf, allowance, bending and smoothing.
+/// Options of a drawing: its scale, its tabs and marks, kerf, allowance and bending.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -30,10 +30,6 @@ pub struct DrawingOptions {
     /// edge. Default: no bend allowance.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub bending: Option<Bending>,
-    /// Maximum distance of the drawn, smooth lines from the outlines and folds of the mesh that was cut, in mean lengths of its edges
-    /// ([`Sheet::spacing`](crate::pattern::Sheet::spacing)); 0 disables smoothing. The two sides of joints may be moved by the same distance again to become
-    /// equally long. Default 0.5.
-    pub smoothing: f64,
     /// Whether all texts are left out except the sheets' names. Default `false`.
     pub plain: bool,
     /// Whether the texture of a mesh is printed on its sheets. Default `false`.
@@ -49,7 +45,6 @@ impl Default for DrawingOptions {
             kerf: 0.0,
             allowance: 0.0,
             bending: None,
-            smoothing: 0.5,
             plain: false,
             printed: false,
         }
@@ -96,14 +91,7 @@ impl DrawingOptions {
                 "must be left out where metal is bent, which stretches what is printed on it",
             ));
         }
-        match self.smoothing >= 0.0 && self.smoothing.is_finite() {
-            true => Ok(()),
-            false => Err(Error::option(
-                "smoothing",
-                self.smoothing,
-                "must be 0 or more",
-            )),
-        }
+        Ok(())
     }
 
     /// Sets the scale of the drawing, in millimetres for each unit of the surface, and returns the options.
@@ -143,12 +131,6 @@ impl DrawingOptions {
             bending: Some(bending),
             ..self
         }
-    }
-
-    /// Sets the maximum distance of smooth lines from those of the mesh that was cut, in mean lengths of its edges, and returns the
-    /// options.
-    pub fn smoothing(self, smoothing: f64) -> Self {
-        DrawingOptions { smoothing, ..self }
     }
 
     /// Sets whether all texts are left out except the sheets' names, and returns the options.

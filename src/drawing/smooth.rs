@@ -1,269 +1,178 @@
-//! Makes the outlines and folds found on the lattice smooth: straight pieces and curves between corners.
+//! Smooth curves through lines of short straight pieces: straight lines and cubic Bézier curves between corners.
+//!
+//! A piece between two corners is fitted by one cubic curve with the line's directions at its ends, by least squares, and divided
+//! where that is off by more than the tolerance (Schneider, *An Algorithm for Automatically Fitting Digitized Curves*, 1990).
 
-use super::border_side::{MAX_STRAIGHTENING_TOLERANCES, axis, is_straight_side, side_ends};
-use super::curve::Curve;
-use super::line_corners::{MIN_SMOOTHED_LENGTH_SPACINGS, Sample, corners, rotated, samples};
-use super::spline::fit_spline;
-use crate::math::planar::{distance, line_intersection, nearest_on_segment, polyline_length};
-use crate::pattern::{Run, Sheet};
-use crate::unroll::flat_triangle::Point;
-use crate::unroll::overlap::crossings;
+use super::curve::{Curve, MIN_CORNER_TURN};
+use super::simplify::simplify_polyline;
+use crate::math::planar::{Point2, distance_to_segment};
 
-/// Distance between the sample points of an outline to which curves are fitted, in lattice spacings.
-const SAMPLE_DISTANCE_SPACINGS: f64 = 0.25;
+/// Share of the tolerance within which a line is simplified before curves are fitted to it.
+const MAX_SIMPLIFICATION_SHARE: f64 = 0.25;
 
-/// Minimum length of a span of the fitted spline, in lattice spacings. `benches/patterns.md` has what others give.
-const MIN_SPAN_SPACINGS: f64 = 1.5;
+/// Number of times that the parameters of points on a fitted curve are moved to the nearest points of the curve.
+const REPARAMETRISATION_PASSES: usize = 3;
 
-/// Root mean square distance of a fitted curve from the sample points, in lattice spacings, below which the fit counts
-/// as exact. `benches/patterns.md` has what others give.
-const NEGLIGIBLE_RESIDUAL_SPACINGS: f64 = 0.03;
-
-/// Maximum distance of the intersection of two sides of the surface's border from the corner that it replaces, as a multiple
-/// of the tolerance: the lattice may have cut off a cell there.
-const MAX_SIDE_CORNER_TOLERANCES: f64 = 4.0;
-
-/// Tolerances of a smooth line, as shares of [`DrawingOptions::smoothing`](super::DrawingOptions::smoothing), tried in
-/// this order: the next is used where the line crosses another or itself.
-const TOLERANCE_SHARES: [f64; 4] = [1.0, 0.5, 0.2, 0.0];
-
-/// The smooth outlines and folds of one sheet, in the surface's units.
-pub(super) struct Smooth {
-    /// The sheet's outlines, each as a list of smooth curves, one for each run (piece along one side of a crease or
-    /// along the border).
-    pub outlines: Vec<Vec<Curve>>,
-    pub folds: Vec<Curve>,
+/// Creates a curve within a tolerance of a line; a closed line repeats its first point at the end. Corners stay where they are.
+pub(super) fn curve_through(line: &[[f64; 2]], tolerance: f64) -> Curve {
+    let points: Vec<Point2> = line.iter().map(|[x, y]| Point2::new(*x, *y)).collect();
+    // Points close to each other would say little about the directions at corners and ends.
+    let mut points = simplify_polyline(&points, MAX_SIMPLIFICATION_SHARE * tolerance);
+    points.dedup();
+    let mut curve = Curve::through(&line[..1]);
+    let last = points.len() - 1;
+    if last == 0 {
+        return curve;
+    }
+    let is_closed = last > 2 && points[0] == points[last];
+    let mut corners: Vec<usize> = (1..last)
+        .filter(|i| turn(points[i - 1], points[*i], points[i + 1]) > MIN_CORNER_TURN)
+        .collect();
+    let is_smooth_at_start =
+        is_closed && turn(points[last - 1], points[0], points[1]) <= MIN_CORNER_TURN;
+    if is_smooth_at_start && let Some(first) = corners.first().copied() {
+        // Begin at a corner.
+        points.pop();
+        points.rotate_left(first);
+        points.push(points[0]);
+        corners = corners.iter().map(|i| i - first).skip(1).collect();
+        curve = Curve::through(&[[points[0].re, points[0].im]]);
+    }
+    let ends: Vec<usize> = [0].into_iter().chain(corners).chain([last]).collect();
+    // A closed line without a corner has one direction at its beginning and end.
+    let around = (is_smooth_at_start && ends.len() == 2)
+        .then(|| heading(points[last - 1], points[0], points[1]));
+    for pair in ends.windows(2) {
+        let section = &points[pair[0]..=pair[1]];
+        let count = section.len();
+        let headings = [
+            around
+                .unwrap_or_else(|| end_heading(section[0], section[1], section[2.min(count - 1)])),
+            around.unwrap_or_else(|| {
+                -end_heading(
+                    section[count - 1],
+                    section[count - 2],
+                    section[count.max(3) - 3],
+                )
+            }),
+        ];
+        fit(section, headings, tolerance, &mut curve);
+    }
+    curve
 }
 
-/// Makes a sheet's outlines and folds smooth, within a tolerance in lattice spacings. Ends of an outline's runs (pieces
-/// along one crease each) keep their positions, so that the two sides of a seam keep common ends. Smoothing adds no
-/// intersections of outlines.
-pub(super) fn smooth_lines(sheet: &Sheet, tolerance: f64) -> Smooth {
-    let spacing = sheet.spacing;
-    let runs: Vec<&Run> = sheet.outlines.iter().flatten().collect();
-    let smooth_run = |run: &Run, tolerance: f64| {
-        let is_border = run.seam.is_none();
-        smooth_line(&run.points, tolerance * spacing, spacing, is_border)
-    };
-    let mut levels = vec![0; runs.len()];
-    let mut curves: Vec<Curve> = (runs.iter())
-        .map(|run| smooth_run(run, tolerance))
-        .collect();
-    loop {
-        let wrong = crossing_curves(&curves, spacing);
-        let mut changed = false;
-        for run in wrong {
-            if levels[run] + 1 < TOLERANCE_SHARES.len() {
-                levels[run] += 1;
-                curves[run] = smooth_run(runs[run], TOLERANCE_SHARES[levels[run]] * tolerance);
-                changed = true;
-            }
-        }
-        if !changed {
-            break;
-        }
-    }
-    let folds = (sheet.folds.iter())
-        .map(|fold| {
-            smooth(
-                &extend_fold(&fold.points, &curves, tolerance * spacing),
-                tolerance * spacing,
-                spacing,
-            )
-        })
-        .collect();
-    let mut curves = curves.into_iter();
-    let outlines = (sheet.outlines.iter())
-        .map(|outline| curves.by_ref().take(outline.len()).collect())
-        .collect();
-    Smooth { outlines, folds }
+/// Angle by which a line turns at the second of three points, in radians.
+fn turn(before: Point2, here: Point2, after: Point2) -> f64 {
+    ((here - before).conj() * (after - here)).arg().abs()
 }
 
-/// Finds the curves that cross each other or themselves; returns their indices.
-pub(super) fn crossing_curves(curves: &[Curve], spacing: f64) -> Vec<usize> {
-    let (mut places, mut edges, mut owners) = (Vec::new(), Vec::new(), Vec::new());
-    for (owner, curve) in curves.iter().enumerate() {
-        for p in curve.points(0.02 * spacing).windows(2) {
-            // Divide curves into short segments, because the index compares these faster.
-            let steps = (distance(p[0], p[1]) / (4.0 * spacing)).ceil().max(1.0);
-            let at = |i: f64| {
-                Point::new(p[0][0], p[0][1]) * (1.0 - i / steps)
-                    + Point::new(p[1][0], p[1][1]) * (i / steps)
-            };
-            for i in 0..steps as usize {
-                let from = places.len() as u32;
-                places.extend([at(i as f64), at(i as f64 + 1.0)]);
-                edges.push([from, from + 1]);
-                owners.push(owner);
-            }
-        }
-    }
-    let touch = |a: usize, b: usize| {
-        let ends = |e: usize| edges[e].map(|v| places[v as usize]);
-        ends(a)
-            .iter()
-            .any(|p| ends(b).iter().any(|q| (p - q).norm() < 1e-9 * spacing))
-    };
-    let pairs = crossings(&places, &edges).into_iter();
-    let mut wrong: Vec<usize> = pairs
-        .filter(|[a, b]| !touch(*a, *b))
-        .flat_map(|pair| pair.map(|edge| owners[edge]))
-        .collect();
-    wrong.sort_unstable();
-    wrong.dedup();
-    wrong
+fn unit(along: Point2) -> Point2 {
+    along / along.norm().max(f64::MIN_POSITIVE)
 }
 
-/// Moves the ends of a fold onto the sheet's smooth outline, if the ends are near the outline.
-fn extend_fold(points: &[[f64; 2]], outlines: &[Curve], tolerance: f64) -> Vec<[f64; 2]> {
-    let mut out = points.to_vec();
-    let last = out.len() - 1;
-    if out[0] == out[last] {
-        return out;
-    }
-    for end in [0, last] {
-        let nearest = outlines.iter().flat_map(|curve| {
-            let points = curve.points(0.01 * tolerance.max(f64::MIN_POSITIVE));
-            let feet: Vec<[f64; 2]> = points
-                .windows(2)
-                .map(|p| nearest_on_segment(out[end], [p[0], p[1]]))
-                .collect();
-            feet
-        });
-        let nearest =
-            nearest.min_by(|p, q| distance(*p, out[end]).total_cmp(&distance(*q, out[end])));
-        if let Some(place) = nearest.filter(|p| distance(*p, out[end]) <= 1.5 * tolerance) {
-            out[end] = place;
-        }
-    }
-    out
+/// Direction at its second point of the circle through three points of a line.
+fn heading(before: Point2, here: Point2, after: Point2) -> Point2 {
+    let (a, b) = (here - before, after - here);
+    unit(a / a.norm_sqr() + b / b.norm_sqr())
 }
 
-/// Fits a smooth curve within a tolerance to a polyline; a closed polyline repeats its first point at the end.
-pub(crate) fn smooth(points: &[[f64; 2]], tolerance: f64, spacing: f64) -> Curve {
-    smooth_line(points, tolerance, spacing, false)
+/// Direction at its first point of the circle through three points of a line.
+fn end_heading(first: Point2, second: Point2, third: Point2) -> Point2 {
+    let (a, b) = (unit(second - first), unit(third - second));
+    // The chord's direction is turned back by half of the angle from the middle of one chord to that of the next.
+    let share = (second - first).norm() / ((second - first).norm() + (third - second).norm());
+    let back = (a.conj() * b).arg() * share;
+    a * Point2::from_polar(1.0, -back)
 }
 
-/// Fits a smooth curve within a tolerance to a polyline, as [`smooth`] does; sides of the surface's border that are
-/// straight but for the lattice's steps become straight lines.
-fn smooth_line(points: &[[f64; 2]], tolerance: f64, spacing: f64, is_border: bool) -> Curve {
-    if tolerance <= 0.0 || polyline_length(points) < MIN_SMOOTHED_LENGTH_SPACINGS * spacing {
-        return Curve::through(points);
+/// Adds curves along points to a curve, with given directions at both ends.
+fn fit(points: &[Point2], headings: [Point2; 2], tolerance: f64, curve: &mut Curve) {
+    let (from, to) = (points[0], points[points.len() - 1]);
+    let is_near = |p: &Point2| distance_to_segment(*p, [from, to]) <= tolerance;
+    if points.iter().all(is_near) {
+        curve.line_to([to.re, to.im]);
+        return;
     }
-    let closed = points.len() > 3 && points[0] == points[points.len() - 1];
-    let mut line = samples(points, SAMPLE_DISTANCE_SPACINGS * spacing);
-    let mut corners = corners(&line, closed, spacing);
-    let mut ends = match is_border {
-        true => side_ends(&line, &corners, closed, spacing),
-        false => Vec::new(),
-    };
-    let last = line.len() - 1;
-    if closed {
-        let Some(first) = ends.first().or(corners.first()).copied() else {
-            return section(&line, true, tolerance, spacing)
-                .unwrap_or_else(|| Curve::through(points));
-        };
-        // Begin at a corner, at the end of a side if there is one.
-        line = rotated(&line, first);
-        for list in [&mut corners, &mut ends] {
-            for corner in list.iter_mut() {
-                *corner = (*corner + last - first) % last;
-            }
-            list.sort_unstable();
-        }
-        corners.push(last);
-    } else {
-        corners.insert(0, 0);
-        corners.push(last);
-        ends.insert(0, 0);
+    let (controls, worst) = cubic(points, headings);
+    if worst.1 <= tolerance {
+        curve.bezier_to([controls[1], controls[2], controls[3]].map(|p| [p.re, p.im]));
+        return;
     }
-    ends.push(last);
-    let sides: Vec<[usize; 2]> = (ends.windows(2).map(|pair| [pair[0], pair[1]]))
-        .filter(|[from, to]| is_border && is_straight_side(&line[*from..=*to], tolerance, spacing))
-        .collect();
-    corners.retain(|i| !sides.iter().any(|[from, to]| from < i && i < to));
-    let sections = || corners.windows(2).map(|ends| &line[ends[0]..=ends[1]]);
-    let mut curves: Vec<Option<Curve>> = sections()
-        .zip(corners.windows(2))
-        .map(
-            |(own, ends)| match sides.iter().any(|side| side[..] == *ends) {
-                true => Some(Curve::through(&[
-                    pair(own[0].place),
-                    pair(own[own.len() - 1].place),
-                ])),
-                false => section(own, false, tolerance, spacing),
-            },
-        )
-        .collect();
-    // The corner between two straight pieces is their intersection, even if the lattice has cut it off.
-    let count = curves.len();
-    let straight: Vec<Option<[Point; 2]>> = sections()
-        .zip(&curves)
-        .map(|(own, curve)| {
-            let plain = curve.as_ref().is_some_and(|c| {
-                c.controls().len() == 4
-                    && c.pieces()
-                        .all(|p| matches!(p, super::curve::Piece::Line(_)))
-            });
-            plain.then(|| axis(own))
-        })
-        .collect();
-    // Fewer than three straight pieces enclose no area.
-    if closed && count < 3 && straight.iter().all(Option::is_some) {
-        return Curve::through(points);
-    }
-    let mut ends: Vec<[f64; 2]> = corners.iter().map(|i| pair(line[*i].place)).collect();
-    for k in 0..count {
-        let next = match k + 1 < count {
-            true => k + 1,
-            false if closed => 0,
-            false => continue,
-        };
-        if let (Some(a), Some(b)) = (straight[k], straight[next]) {
-            let corner = line[corners[k + 1]].place;
-            let is_side = |k: usize| sides.contains(&[corners[k], corners[k + 1]]);
-            let reach = match is_side(k) || is_side(next) {
-                true => MAX_SIDE_CORNER_TOLERANCES,
-                false => MAX_STRAIGHTENING_TOLERANCES,
-            };
-            let near = |p: &Point| (p - corner).norm() <= reach * tolerance;
-            if let Some(place) = line_intersection(a, b, 0.0).filter(near) {
-                ends[k + 1] = pair(place);
-                if next == 0 {
-                    ends[0] = pair(place);
-                }
-            }
-        }
-    }
-    let mut out = Curve::of(vec![ends[0]]);
-    for (k, own) in sections().enumerate() {
-        match (straight[k], curves[k].take()) {
-            (Some(_), _) => out.line_to(ends[k + 1]),
-            (_, Some(curve)) => out.append(&curve),
-            // No spline is within the tolerance: keep the polyline.
-            _ => own
-                .iter()
-                .skip(1)
-                .filter(|s| s.given)
-                .for_each(|s| out.line_to(pair(s.place))),
-        }
-    }
-    out
+    let middle = worst.0.clamp(1, points.len() - 2);
+    let heading = heading(points[middle - 1], points[middle], points[middle + 1]);
+    fit(&points[..=middle], [headings[0], heading], tolerance, curve);
+    fit(&points[middle..], [heading, headings[1]], tolerance, curve);
 }
 
-fn section(line: &[Sample], closed: bool, tolerance: f64, spacing: f64) -> Option<Curve> {
-    let points: Vec<(f64, Point)> = line.iter().map(|s| (s.along, s.place)).collect();
-    fit_spline(
-        &points,
-        closed,
-        tolerance,
-        NEGLIGIBLE_RESIDUAL_SPACINGS * spacing,
-        MIN_SPAN_SPACINGS * spacing,
+/// Fits a cubic Bézier curve with given directions at its ends. Returns its control points, and the number of the point that is farthest
+/// from it, with its distance.
+fn cubic(points: &[Point2], headings: [Point2; 2]) -> ([Point2; 4], (usize, f64)) {
+    let (from, to) = (points[0], points[points.len() - 1]);
+    let mut along = vec![0.0];
+    for pair in points.windows(2) {
+        along.push(along[along.len() - 1] + (pair[1] - pair[0]).norm());
+    }
+    let length = along[along.len() - 1];
+    let mut at: Vec<f64> = along.iter().map(|s| s / length).collect();
+    let mut controls = [from; 4];
+    for _ in 0..REPARAMETRISATION_PASSES {
+        let arms = arms(points, &at, headings)
+            .filter(|arms| arms.iter().all(|arm| (0.0..length).contains(arm)));
+        let [first, second] = arms.unwrap_or([length / 3.0; 2]);
+        controls = [
+            from,
+            from + headings[0] * first,
+            to - headings[1] * second,
+            to,
+        ];
+        for (t, point) in at.iter_mut().zip(points) {
+            let (place, slope) = value(&controls, *t);
+            let step =
+                (slope.conj() * (point - place)).re / slope.norm_sqr().max(f64::MIN_POSITIVE);
+            *t = (*t + step).clamp(0.0, 1.0);
+        }
+    }
+    let away = at
+        .iter()
+        .zip(points)
+        .map(|(t, p)| (value(&controls, *t).0 - p).norm());
+    let worst = away.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+    (controls, worst.unwrap_or_default())
+}
+
+/// Least-squares lengths of the arms from the ends of a curve to its inner control points.
+fn arms(points: &[Point2], at: &[f64], headings: [Point2; 2]) -> Option<[f64; 2]> {
+    let (from, to) = (points[0], points[points.len() - 1]);
+    let dot = |a: Point2, b: Point2| (a.conj() * b).re;
+    let (mut squares, mut products) = ([0.0; 3], [0.0; 2]);
+    for (t, point) in at.iter().zip(points) {
+        let s = 1.0 - t;
+        let [b0, b1, b2, b3] = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
+        let (first, second) = (headings[0] * b1, headings[1] * -b2);
+        let rest = point - from * (b0 + b1) - to * (b2 + b3);
+        squares[0] += dot(first, first);
+        squares[1] += dot(first, second);
+        squares[2] += dot(second, second);
+        products[0] += dot(first, rest);
+        products[1] += dot(second, rest);
+    }
+    let determinant = squares[0] * squares[2] - squares[1] * squares[1];
+    (determinant > 1e-12 * squares[0] * squares[2]).then(|| {
+        [
+            (products[0] * squares[2] - products[1] * squares[1]) / determinant,
+            (products[1] * squares[0] - products[0] * squares[1]) / determinant,
+        ]
+    })
+}
+
+/// Point of a cubic Bézier curve at a parameter, and its derivative.
+fn value(controls: &[Point2; 4], t: f64) -> (Point2, Point2) {
+    let s = 1.0 - t;
+    let [a, b, c, d] = *controls;
+    (
+        a * (s * s * s) + b * (3.0 * s * s * t) + c * (3.0 * s * t * t) + d * (t * t * t),
+        ((b - a) * (s * s) + (c - b) * (2.0 * s * t) + (d - c) * (t * t)) * 3.0,
     )
-}
-
-fn pair(place: Point) -> [f64; 2] {
-    [place.re, place.im]
 }
 
 #[cfg(test)]
@@ -271,103 +180,75 @@ mod tests {
     use super::super::curve::Piece;
     use super::*;
 
-    /// A rectangle's border with a tooth of the lattice every `pitch` along one of its long sides, turned by an angle.
-    fn rectangle(wide: f64, high: f64, pitch: f64, depth: f64, angle: f64) -> Vec<[f64; 2]> {
-        let mut points = vec![[0.0, 0.0]];
-        points.extend((1..=wide as usize).map(|i| [i as f64, 0.0]));
-        let teeth = (high / pitch) as usize;
-        for k in 0..teeth {
-            // Along the side the border leans outwards, and steps back by one edge of the lattice.
-            points.extend((1..=pitch as usize).map(|i| {
-                [
-                    wide + depth * (i as f64 / pitch - 0.5),
-                    k as f64 * pitch + i as f64 - 0.5,
-                ]
-            }));
-            points.push([wide - 0.5 * depth, (k + 1) as f64 * pitch]);
-        }
-        points.extend((0..=wide as usize).map(|i| [wide - i as f64, high]));
-        points.extend((1..=high as usize).map(|i| [0.0, high - i as f64]));
-        let (sin, cos) = angle.sin_cos();
-        (points.iter())
-            .map(|[x, y]| [cos * x - sin * y, sin * x + cos * y])
+    fn sampled(count: u32, at: impl Fn(f64) -> [f64; 2]) -> Vec<[f64; 2]> {
+        (0..=count)
+            .map(|i| at(f64::from(i) / f64::from(count)))
             .collect()
     }
 
     #[test]
-    fn a_rectangle_with_steps_along_a_side_has_four_straight_lines() {
-        for (angle, depth) in [(0.0, 1.2), (0.4, 1.2), (2.0, 0.9)] {
-            let border = rectangle(60.0, 80.0, 8.0, depth, angle);
-            let curve = smooth_line(&border, 0.5, 1.0, true);
-            let pieces: Vec<Piece> = curve.pieces().collect();
-            assert_eq!(pieces.len(), 4, "{angle}, {depth}: {pieces:?}");
-            let mut lengths: Vec<f64> = (pieces.iter())
-                .map(|piece| match piece {
-                    Piece::Line([p, q]) => distance(*p, *q),
-                    Piece::Bezier(_) => f64::NAN,
-                })
-                .collect();
-            lengths.sort_by(f64::total_cmp);
-            // The sides keep their lengths but for a fraction of a cell.
-            for (length, side) in lengths.iter().zip([60.0, 60.0, 80.0, 80.0]) {
-                assert!((length - side).abs() < 0.5, "{lengths:?}");
-            }
-            // Within the sheet the same line is a crease, and stays as it is.
-            assert!(smooth(&border, 0.5, 1.0).pieces().count() > 4);
+    fn a_closed_line_has_no_kink() {
+        let mut circle = sampled(90, |t| {
+            let (sin, cos) = (std::f64::consts::TAU * t).sin_cos();
+            [40.0 * cos, 40.0 * sin]
+        });
+        circle[90] = circle[0];
+        let curve = curve_through(&circle, 0.05);
+        let c = curve.controls();
+        assert_eq!(c[0], c[c.len() - 1]);
+        assert!(c.len() < 30, "{}", c.len());
+        let away = |p: &[f64; 2]| (p[0].hypot(p[1]) - 40.0).abs();
+        let worst = curve.points(0.001).iter().map(away).fold(0.0, f64::max);
+        assert!(worst < 0.06, "{worst}");
+        for i in (0..c.len() - 1).step_by(3) {
+            let before = if i == 0 { c[c.len() - 2] } else { c[i - 1] };
+            let turn = turn(
+                Point2::new(before[0], before[1]),
+                Point2::new(c[i][0], c[i][1]),
+                Point2::new(c[i + 1][0], c[i + 1][1]),
+            );
+            assert!(turn < 1e-9, "{turn}");
         }
     }
 
     #[test]
-    fn a_rectangle_of_few_long_edges_encloses_an_area() {
-        // A roof of four strips, whose edges are about as long as the roof.
-        let points = [0.0, 56.5, 135.8, 215.1, 271.6];
-        let mut border: Vec<[f64; 2]> = points.iter().map(|x| [*x, 0.0]).collect();
-        border.extend(points.iter().rev().map(|x| [*x, 220.4]));
-        border.push([0.0, 0.0]);
-        for spacing in 20..300 {
-            let spacing = f64::from(spacing);
-            for first in 0..10 {
-                let mut turned = border[..10].to_vec();
-                turned.rotate_left(first);
-                turned.push(turned[0]);
-                let points = smooth_line(&turned, 0.5 * spacing, spacing, true).points(1e-3);
-                let doubled_area: f64 = (points.windows(2))
-                    .map(|p| p[0][0] * p[1][1] - p[1][0] * p[0][1])
-                    .sum();
-                let share = 0.5 * doubled_area / (271.6 * 220.4);
-                assert!(share > 0.9, "{spacing} {first}: {share}");
-            }
+    fn waves_are_kept_within_the_tolerance() {
+        let wave = sampled(400, |t| [100.0 * t, 3.0 * (20.0 * t).sin()]);
+        let curve = curve_through(&wave, 0.1);
+        assert!(curve.pieces().count() < 30, "{}", curve.pieces().count());
+        for [x, y] in curve.points(0.01) {
+            assert!((y - 3.0 * (0.2 * x).sin()).abs() < 0.15, "{x} {y}");
         }
     }
 
     #[test]
-    fn a_side_that_bends_stays_a_curve() {
-        // An arc of which half a spacing rises above the chord, and one that rises by a spacing over ten times the length.
-        for (long, rise) in [(40.0f64, 0.5), (400.0, 1.0)] {
-            let border: Vec<[f64; 2]> = (0..=long as usize)
-                .map(|i| {
-                    let t = i as f64 / long;
-                    [i as f64, 4.0 * rise * t * (1.0 - t)]
-                })
-                .collect();
-            let curve = smooth_line(&border, 0.5, 1.0, true);
-            assert!(curve.pieces().any(|p| matches!(p, Piece::Bezier(_))));
-            let middle = curve.points(1e-3).iter().map(|p| p[1]).fold(0.0, f64::max);
-            assert!((middle - rise).abs() < 0.1, "{middle}");
-        }
-    }
-
-    #[test]
-    fn a_narrow_hole_keeps_its_area() {
-        for wide in [8.0, 20.0] {
-            let mut hole = rectangle(wide, 1.0, 1.0, 0.0, 0.3);
-            hole.dedup();
-            let curve = smooth_line(&hole, 0.5, 1.0, true);
-            let points = curve.points(1e-3);
-            let twice: f64 = (points.windows(2))
-                .map(|p| p[0][0] * p[1][1] - p[1][0] * p[0][1])
-                .sum();
-            assert!((0.5 * twice - wide).abs() < 0.4 * wide, "{wide}: {twice}");
+    fn corners_stay_and_what_is_straight_is_one_line() {
+        // A square that begins within a side, and a circle on a stem.
+        let mut square = vec![
+            [5.0, 0.0],
+            [10.0, 0.0],
+            [10.0, 10.0],
+            [0.0, 10.0],
+            [0.0, 0.0],
+        ];
+        square.push(square[0]);
+        let pieces: Vec<Piece> = curve_through(&square, 0.01).pieces().collect();
+        assert_eq!(pieces.len(), 4, "{pieces:?}");
+        assert!(pieces.iter().all(|piece| matches!(piece, Piece::Line(_))));
+        let mut line = sampled(10, |t| [0.0, 20.0 * t]);
+        line.extend(
+            sampled(40, |t| {
+                [10.0 - 10.0 * (3.0 * t).cos(), 20.0 + 10.0 * (3.0 * t).sin()]
+            })
+            .split_off(1),
+        );
+        let curve = curve_through(&line, 0.02);
+        for [x, y] in curve.points(0.001) {
+            let away = match y < 20.0 && x < 5.0 {
+                true => x.abs(),
+                false => ((x - 10.0).hypot(y - 20.0) - 10.0).abs(),
+            };
+            assert!(away < 0.05, "{x} {y}");
         }
     }
 }

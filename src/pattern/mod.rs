@@ -32,6 +32,7 @@ mod label_spot;
 mod motion;
 mod options;
 mod sheets;
+mod smooth_creases;
 mod surface;
 mod surface_mesh;
 

@@ -3,16 +3,14 @@
 use super::cutting::{PatchedMesh, cut_into_sheets};
 use super::options::PatternOptions;
 use super::sheets::Pattern;
+use super::smooth_creases::smooth_creases;
 use super::surface_mesh::SurfaceMesh;
 use crate::error::{Result, check_count};
 use crate::fit::mesh::topology::Topology;
 use crate::heights::heightfield::Heightfield;
 use crate::scene::mesh::Mesh;
+use crate::shape::patches::bend_angles::NORMAL_DISTANCE_VERTICES;
 use crate::shape::patches::{MeshPatches, Patches};
-
-/// Distance from a crease of a fitted heightfield, in lattice spacings, at which the normals on either side are taken: the fit
-/// rounds creases over some vertices. `benches/patterns.md` has what others give.
-const CREASE_WIDTH_SPACINGS: f64 = 4.0;
 
 /// Cuts a heightfield into flat sheets; the first sheet is the one with the largest patch.
 ///
@@ -37,7 +35,7 @@ pub fn pattern(
             triangles: mesh.triangles,
             patches: mesh.patches,
             bend: patches.bend() * mesh.step as f64,
-            crease_width: CREASE_WIDTH_SPACINGS * surface.lattice().spacing(),
+            crease_width: NORMAL_DISTANCE_VERTICES as f64 * surface.lattice().spacing(),
         },
         options,
     )?;
@@ -81,10 +79,13 @@ pub fn pattern_mesh(
     let topology = Topology::new(mesh)?;
     let place = |vertex: &u32| mesh.positions()[*vertex as usize].into();
     let labels = topology.from.iter().map(|t| patches.labels()[*t as usize]);
+    let labels: Vec<u32> = labels.collect();
+    let mut places: Vec<_> = topology.source.iter().map(place).collect();
+    smooth_creases(&mut places, &topology.triangles, &labels);
     let mesh = PatchedMesh {
-        places: topology.source.iter().map(place).collect(),
+        places,
         triangles: topology.triangles.clone(),
-        patches: labels.collect(),
+        patches: labels,
         bend: patches.bend(),
         crease_width: 0.0,
     };

@@ -1,7 +1,6 @@
-//! Triangle meshes laid flat, or bent in space, as rigidly as possible and tied to each other along lines.
+//! Triangle meshes laid flat, or bent in space, as rigidly as possible.
 //!
-//! The energy is the sum of `area · ‖J − R‖²` over
-//! the triangles and, for each tie, of the squared distance between its two points times [`TIE_WEIGHT`].
+//! The energy is the sum of `area · ‖J − R‖²` over the triangles.
 
 use nalgebra::Vector3;
 
@@ -13,11 +12,6 @@ use super::unflip::unflip_triangles;
 use crate::error::{Result, try_filled};
 use crate::progress;
 
-/// Weight, in the energy of a mesh, of the squared distance between two points that are tied, that is, should coincide.
-/// An edge between two equilateral triangles has the weight 0.58, so that tied points meet before triangles are
-/// strained. `benches/patterns.md` has what others give.
-const TIE_WEIGHT: f64 = 8.0;
-
 /// Relative change of a layout's energy in one iteration below which the layout counts as stalled.
 const STALLED_RELATIVE_CHANGE: f64 = 0.01;
 
@@ -28,16 +22,10 @@ const MIN_STEPS_BEFORE_GIVING_UP: usize = 6;
 /// by the largest recent one, because the energy does not fall at an even rate.
 const CHANGE_DECAY: f64 = 0.8;
 
-/// A point on a mesh: vertices with barycentric weights; a vertex of weight 0 does not count.
-pub(crate) type BarycentricPoint = [(u32, f64); 3];
-
-/// The problem of laying a mesh with the least as-rigid-as-possible energy: its triangles in their own planes, and
-/// ties, which are pairs of points that should coincide.
+/// The problem of laying a mesh with the least as-rigid-as-possible energy: its triangles in their own planes.
 pub(crate) struct ArapMesh {
     /// Triangles of the mesh, each with the numbers of its corners.
     triangles: Vec<(FlatTriangle, [u32; 3])>,
-    /// Ties: pairs of points of the mesh that should coincide.
-    ties: Vec<[BarycentricPoint; 2]>,
     /// Cholesky factor of the global step's matrix.
     factor: Cholesky,
     area: f64,
@@ -68,14 +56,12 @@ impl ArapMesh {
     pub(crate) fn new(
         places: &[Point],
         triangles: Vec<(FlatTriangle, [u32; 3])>,
-        ties: Vec<[BarycentricPoint; 2]>,
     ) -> Result<ArapMesh> {
-        let matrix = matrix(places.len(), &triangles, &ties)?;
+        let matrix = matrix(places.len(), &triangles)?;
         Ok(ArapMesh {
             area: triangles.iter().map(|(triangle, _)| triangle.area()).sum(),
             factor: Cholesky::new(&matrix, places)?,
             triangles,
-            ties,
         })
     }
 
@@ -193,12 +179,12 @@ impl ArapMesh {
     /// Computes the root mean square of the triangles' strains at given vertex positions in space.
     pub(crate) fn strain_in_space(&self, positions: &[Vector3<f64>]) -> f64 {
         let mut descent = vec![Vector3::zeros(); positions.len()];
-        (0.5 * self.triangle_energy(positions, &mut descent) / self.area).sqrt()
+        (0.5 * self.energy(positions, &mut descent) / self.area).sqrt()
     }
 
-    /// Computes the as-rigid-as-possible energy of the triangles, without that of ties. Adds minus half the energy's
-    /// gradient to `descent`.
-    fn triangle_energy<P: Position>(&self, positions: &[P], descent: &mut [P]) -> f64 {
+    /// Computes the as-rigid-as-possible energy of the triangles. Writes minus half the energy's gradient to `descent`.
+    fn energy<P: Position>(&self, positions: &[P], descent: &mut [P]) -> f64 {
+        descent.fill(P::default());
         let mut energy = 0.0;
         for (triangle, corners) in &self.triangles {
             let corners = corners.map(|corner| corner as usize);
@@ -206,32 +192,12 @@ impl ArapMesh {
         }
         energy
     }
-
-    /// Computes the energy of the triangles and of the ties, which are points that should coincide. Writes minus half
-    /// the energy's gradient to `descent`.
-    fn energy<P: Position>(&self, positions: &[P], descent: &mut [P]) -> f64 {
-        descent.fill(P::default());
-        let mut energy = self.triangle_energy(positions, descent);
-        for tie in &self.ties {
-            let terms = difference(tie).into_iter().filter(|(_, w)| *w != 0.0);
-            let apart: P = terms.clone().map(|(v, w)| positions[v as usize] * w).sum();
-            energy += TIE_WEIGHT * apart.squared_norm();
-            for (v, w) in terms {
-                descent[v as usize] -= apart * (TIE_WEIGHT * w);
-            }
-        }
-        energy
-    }
 }
 
-/// Creates the matrix of the global step: the cotangent Laplacian of the triangles, and the squared distances of ties.
-fn matrix(
-    count: usize,
-    triangles: &[(FlatTriangle, [u32; 3])],
-    ties: &[[BarycentricPoint; 2]],
-) -> Result<SparseRows> {
+/// Creates the matrix of the global step: the cotangent Laplacian of the triangles.
+fn matrix(count: usize, triangles: &[(FlatTriangle, [u32; 3])]) -> Result<SparseRows> {
     let mut diagonal = try_filled("unrolling", count, 0.0)?;
-    let mut entries = Vec::with_capacity(6 * triangles.len() + 30 * ties.len() + count);
+    let mut entries = Vec::with_capacity(6 * triangles.len() + count);
     for (triangle, corners) in triangles {
         for (k, weight) in triangle.weights.into_iter().enumerate() {
             let [a, b] = [k, (k + 1) % 3].map(|k| corners[k]);
@@ -240,24 +206,6 @@ fn matrix(
             entries.extend([([a, b], -weight), ([b, a], -weight)]);
         }
     }
-    for tie in ties {
-        let terms = difference(tie);
-        for (a, wa) in terms {
-            for (b, wb) in terms {
-                if wa != 0.0 && wb != 0.0 {
-                    entries.push(([a, b], TIE_WEIGHT * wa * wb));
-                }
-            }
-        }
-    }
     entries.extend((0..).zip(diagonal).map(|(v, weight)| ([v, v], weight)));
     SparseRows::new(count, &entries)
-}
-
-/// Returns vertices with weights whose weighted sum of positions is the vector from the second point of a tie to the
-/// first.
-fn difference([one, other]: &[BarycentricPoint; 2]) -> [(u32, f64); 6] {
-    let [a, b, c] = *one;
-    let [d, e, f] = other.map(|(v, w)| (v, -w));
-    [a, b, c, d, e, f]
 }

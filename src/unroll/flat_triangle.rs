@@ -14,8 +14,6 @@ pub(crate) type Point = Complex<f64>;
 pub(super) trait Position:
     Copy + Default + Add<Output = Self> + Sub<Output = Self> + SubAssign + Mul<f64, Output = Self> + Sum
 {
-    fn squared_norm(self) -> f64;
-
     /// Makes the local step for one triangle: finds the rotation `R` nearest to the triangle's map `J`, and returns the
     /// energy `area · ‖J − R‖²`. Adds minus half the energy's gradient to `descent`.
     fn local_step(
@@ -62,6 +60,16 @@ impl FlatTriangle {
         }
     }
 
+    /// Creates an edge of a given length as a triangle without an area, between its first two corners: by the weight its length is
+    /// kept. An edge between two equilateral triangles has the weight 0.58.
+    pub(crate) fn edge(length: f64, weight: f64) -> Self {
+        FlatTriangle {
+            second: length,
+            third: Point::new(length, 0.0),
+            weights: [weight, 0.0, 0.0],
+        }
+    }
+
     pub(crate) fn exists(&self) -> bool {
         self.second > 0.0
     }
@@ -92,10 +100,6 @@ impl FlatTriangle {
 }
 
 impl Position for Point {
-    fn squared_norm(self) -> f64 {
-        self.norm_sqr()
-    }
-
     #[inline(always)]
     fn local_step(
         triangle: &FlatTriangle,
@@ -131,10 +135,6 @@ impl Position for Point {
 }
 
 impl Position for Vector3<f64> {
-    fn squared_norm(self) -> f64 {
-        self.norm_squared()
-    }
-
     fn local_step(
         triangle: &FlatTriangle,
         places: &[Self],

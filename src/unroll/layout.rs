@@ -43,7 +43,7 @@ pub fn unroll(surface: &Heightfield, options: &UnrollOptions) -> Result<Unrollin
     }
     let mut places = plan(&mesh, spacing);
     let from_above = distortion(&triangles, &places);
-    let mut problem = ArapMesh::new(&places, triangles, Vec::new())?;
+    let mut problem = ArapMesh::new(&places, triangles)?;
     let progress = problem.lay_flat(&mut places, criteria)?;
     let (triangles, area) = (problem.triangles(), problem.area());
     let stretches = triangles

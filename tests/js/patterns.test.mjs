@@ -272,6 +272,13 @@ test('what is wrong is said', async () => {
   await assert.rejects(developable.pattern(card, { scale: 0 }), error('OPTION', /scale/));
 });
 
+/** @param {number[]} point @param {number[]} from @param {number[]} to */
+function distanceToSegment([x, y], [a, b], [c, d]) {
+  const share = ((x - a) * (c - a) + (y - b) * (d - b)) / ((c - a) ** 2 + (d - b) ** 2 || 1);
+  const t = Math.min(Math.max(share, 0), 1);
+  return Math.hypot(x - a - t * (c - a), y - b - t * (d - b));
+}
+
 /** A barrel vault through a lower one: three sheets with curved edges. */
 const vaults = lattice(94, 81, height);
 
@@ -283,13 +290,9 @@ function height(x, y) {
 
 test('curved edges are curves in each format', { skip }, async () => {
   const drawing = direct.pattern(vaults, { stock: 'a4' });
-  const plain = direct.pattern(vaults, { stock: 'a4', smoothing: 0 });
-  const count = (/** @type {typeof drawing} */ { sheets }) => sheets.flatMap((sheet) => sheet.curves).flat().length / 3;
-  assert.ok(5 * count(drawing) < count(plain), `${count(drawing)} ${count(plain)}`);
   assert.ok(drawing.summary.mismatch < 0.004, `${drawing.summary.mismatch}`);
   const cuts = drawing.sheets.flatMap((sheet) => sheet.cuts);
   const around = cuts.map((cut) => length(cut, true));
-  near(around.reduce((sum, one) => sum + one, 0), plain.summary.cutLength, 0.01);
   // As many pages as its sheets take, all of them whole, in Inkscape's words as well.
   assert.equal(drawing.pages?.pages.length, drawing.summary.a4);
   const svg = new TextDecoder().decode(direct.writeSvg(drawing));
@@ -335,7 +338,8 @@ test('kerf, allowance, marks and numbers beside small pieces', () => {
   assert.ok(marks.length % 2 === 0 && Math.abs(marks.length / 2 - seamLength / 30 + seams) <= seams, `${marks.length} ${seamLength}`);
   for (const { sheet, ends: [foot, tip] } of marks) {
     near(Math.hypot(tip[0] - foot[0], tip[1] - foot[1]), 3, 1e-6);
-    assert.ok(Math.min(...sheet.cuts.flat().map(([x, y]) => Math.hypot(x - foot[0], y - foot[1]))) < 15);
+    const away = sheet.cuts.flatMap((cut) => cut.map((from, i) => distanceToSegment(foot, from, cut[(i + 1) % cut.length])));
+    assert.ok(Math.min(...away) < 0.05, `${Math.min(...away)}`);
     assert.ok(inside(tip, sheet.cuts[0]) && !inside([2 * foot[0] - tip[0], 2 * foot[1] - tip[1]], sheet.cuts[0]));
   }
   const small = direct.pattern(pyramid, { scale: 0.08 });

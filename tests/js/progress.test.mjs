@@ -65,7 +65,7 @@ test('calls that tell nothing refuse it', async () => {
 });
 
 test('a drawing whose options are wrong is refused before its pattern is made', () => {
-  for (const options of [{ scale: -1 }, { tabs: -1 }, { marks: 0.5 }, { kerf: -1 }, { allowance: Infinity }, { smoothing: -1 }, { thickness: 1, kFactor: 2 }, { stock: /** @type {[number, number]} */ ([-100, 100]) }, { stock: /** @type {[number]} */ ([60000]) }]) {
+  for (const options of [{ scale: -1 }, { tabs: -1 }, { marks: 0.5 }, { kerf: -1 }, { allowance: Infinity }, { thickness: 1, kFactor: 2 }, { stock: /** @type {[number, number]} */ ([-100, 100]) }, { stock: /** @type {[number]} */ ([60000]) }]) {
     let calls = 0;
     const onProgress = () => { calls += 1; };
     for (const call of [() => direct.pattern(small, { ...options, onProgress }), () => direct.patternMesh(mesh, { ...options, onProgress })]) {

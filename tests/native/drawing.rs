@@ -116,41 +116,40 @@ fn lines_of_a_noisy_surface_are_straight_or_smooth() {
     let found = sheets(scan.heightfield());
     let scale = 200.0;
     let cell = scale / 80.0;
-    let raw = drawn(
-        &found,
-        DrawingOptions::default().scale(scale).smoothing(0.0),
-    );
     let drawing = drawn(&found, DrawingOptions::default().scale(scale));
     let pieces = |drawing: &Drawing| -> usize {
         let curves = drawing.sheets.iter().flat_map(|sheet| &sheet.curves);
         curves.map(|curve| curve.pieces().count()).sum()
     };
-    assert!(
-        8 * pieces(&drawing) < pieces(&raw),
-        "{} {}",
-        pieces(&drawing),
-        pieces(&raw)
-    );
+    let runs = |sheet: &Sheet| -> Vec<Vec<[f64; 2]>> {
+        let runs = sheet.outlines.iter().flatten();
+        runs.map(|run| run.points.clone()).collect()
+    };
+    let given = found.iter().flat_map(runs).map(|line| line.len() - 1);
+    let given: usize = given.sum();
+    assert!(4 * pieces(&drawing) < given, "{} {given}", pieces(&drawing));
     let bends = drawing
         .sheets
         .iter()
         .flat_map(|s| s.curves.iter().flat_map(|c| c.pieces()));
     assert!(bends.filter(|p| matches!(p, Piece::Bezier(_))).count() > 3);
-    for (before, after) in raw.sheets.iter().zip(&drawing.sheets) {
-        assert!((area_of(before) / area_of(after) - 1.0).abs() < 0.01);
-        // Within half a cell, before the sheets were turned to lie in a small box: as far around.
-        let around =
-            |sheet: &DrawnSheet| -> f64 { sheet.cuts.iter().map(|cut| perimeter(cut)).sum() };
-        assert!(around(after) < around(before) * 1.001 && around(after) > 0.9 * around(before));
+    for (before, after) in found.iter().zip(&drawing.sheets) {
+        assert!((scale * scale * before.area / area_of(after) - 1.0).abs() < 0.01);
+        let lines = runs(before);
+        let given = lines.iter().flat_map(|line| {
+            let lengths = line
+                .windows(2)
+                .map(|p| (p[0][0] - p[1][0]).hypot(p[0][1] - p[1][1]));
+            lengths.collect::<Vec<f64>>()
+        });
+        let given = scale * given.sum::<f64>();
+        let around: f64 = after.cuts.iter().map(|cut| perimeter(cut)).sum();
+        assert!((around / given - 1.0).abs() < 2e-3, "{around} {given}");
         let [low, high] = after.bounds;
         assert!((high[0] - low[0]).max(high[1] - low[1]) < scale * 1.3 + cell);
     }
     // Both sides of each seam keep their length.
-    assert!(
-        drawing.summary.mismatch < raw.summary.mismatch + 0.005,
-        "{:?}",
-        drawing.summary
-    );
+    assert!(drawing.summary.mismatch < 0.005, "{:?}", drawing.summary);
 }
 
 #[test]
@@ -202,7 +201,7 @@ fn tabs_are_added_outside_and_touch_nothing() {
         .map(|tab| 8.0 * (tab.length - f64::min(8.0, 0.3 * tab.length)))
         .sum();
     assert!(
-        (after - before - expected).abs() < 0.02 * expected,
+        (after - before - expected).abs() < 0.025 * expected,
         "{} {expected}",
         after - before
     );

@@ -9,7 +9,7 @@ use ::svg::node::element::{Group, Path, Polyline, Text, Title};
 
 use super::colour;
 use crate::assembly::{Built, faces_up};
-use crate::drawing::{letters, smooth};
+use crate::drawing::letters;
 use crate::error::{Error, Result};
 use crate::files::failure::unsupported;
 use crate::pattern::{Faces, Sheet};
@@ -19,9 +19,6 @@ const PICTURE_SIZE: f64 = 1000.0;
 
 /// Width of the margin around the assembly picture, in units of the SVG file.
 const PICTURE_MARGIN: f64 = 20.0;
-
-/// Maximum distance between a simplified line of the assembly picture and the exact line, in lattice spacings.
-const LINE_TOLERANCE_SPACINGS: f64 = 0.5;
 
 /// Font size of the numbers of assembly steps in the assembly picture, in units of the SVG file.
 const NUMBER_FONT_SIZE: f64 = 28.0;
@@ -84,11 +81,6 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
         let sheet = &sheets[number];
         let [r, g, b] = colour(number);
         let built = Built::new(&sheet.faces);
-        let smoothed = |line: &[[f64; 2]]| -> Vec<[f64; 2]> {
-            let line = smooth(line, LINE_TOLERANCE_SPACINGS * sheet.spacing, sheet.spacing);
-            let points = line.points(0.1 / scale).into_iter();
-            points.map(place).collect()
-        };
         // Writing into a string cannot fail.
         let mut data = String::new();
         let mut ring = |points: &mut dyn Iterator<Item = [f64; 2]>| {
@@ -100,7 +92,7 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
         let drawn = |flat: &[[f64; 2]]| {
             let lines = seen(&built, flat).into_iter();
             lines.map(|line| {
-                let points = smoothed(&line).into_iter();
+                let points = line.into_iter().map(place);
                 let points: Vec<String> = points.map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
                 Polyline::new().set("points", points.join(" "))
             })
@@ -109,7 +101,7 @@ pub fn write_assembly_svg(sheets: &[Sheet]) -> Result<Vec<u8>> {
         if whole {
             for outline in &sheet.outlines {
                 let lines = outline.iter().flat_map(|run| seen(&built, &run.points));
-                ring(&mut lines.flat_map(|line| smoothed(&line)));
+                ring(&mut lines.flatten().map(place));
             }
         } else {
             for border in borders(&sheet.faces) {

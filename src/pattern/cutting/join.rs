@@ -27,6 +27,10 @@ pub(super) struct Limits {
 /// `benches/patterns.md` has what others give.
 const TRIAL_STRAIN_SHARE: f64 = 0.8;
 
+/// Weights of the squared difference between the two sides of a cut edge, tried in this order until a sheet is valid. An edge between two
+/// equilateral triangles has the weight 0.58. `benches/patterns.md` has what others give.
+const SIDE_WEIGHTS: [f64; 3] = [100.0, 10.0, 1.0];
+
 impl Limits {
     /// Returns the stopping criteria of the solver for laying parts flat that may still be cut or joined.
     pub(super) fn trial(&self) -> StoppingCriteria {
@@ -84,6 +88,7 @@ pub(super) fn join_parts(
         Ok(())
     })?;
     progress::part(1.0, || sheets.close_cuts())?;
+    sheets.even_sides()?;
     let numbers = sheets.seams.put_together(&sheets.whole);
     let mut joined: Vec<Joined> = sheets.all.into_iter().flatten().collect();
     for sheet in &mut joined {
@@ -115,6 +120,34 @@ pub(super) struct Sheets<'a> {
 }
 
 impl<'a> Sheets<'a> {
+    /// Makes both sides of each cut equally long: strain, which is largest at the border of a sheet, has made them differ. A sheet stays as
+    /// it is where it would become invalid.
+    fn even_sides(&mut self) -> Result<()> {
+        let mut lengths = vec![f64::NAN; self.seams.twins.len()];
+        for sheet in self.all.iter().flatten() {
+            for (side, length) in sheet.laid.side_lengths() {
+                lengths[side as usize] = length;
+            }
+        }
+        let twins = &self.seams.twins;
+        let mean = |side: u32| {
+            let other = lengths.get(twins[side as usize] as usize)?;
+            Some(0.5 * (lengths[side as usize] + other)).filter(|length| length.is_finite())
+        };
+        for sheet in self.all.iter_mut().flatten() {
+            for weight in SIDE_WEIGHTS {
+                let laid = sheet
+                    .laid
+                    .with_sides(self.body, mean, weight, self.limits.until)?;
+                if self.limits.allow(&laid) {
+                    sheet.laid = laid;
+                    break;
+                }
+            }
+        }
+        Ok(())
+    }
+
     fn new(body: &'a Body, seams: Seams, parts: Vec<FlatPart>, limits: Limits) -> Self {
         let alone = |(part, laid): (u32, FlatPart)| Joined {
             parts: vec![part],

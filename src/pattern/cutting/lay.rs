@@ -134,6 +134,41 @@ impl FlatPart {
         Ok(self)
     }
 
+    /// Moves the vertices to the positions of least strain at which edges along the border have given lengths, by the half-edges of the
+    /// whole mesh; the weight is that of the squared difference of a length in the energy.
+    pub(super) fn with_sides(
+        &self,
+        body: &Body,
+        length: impl Fn(u32) -> Option<f64>,
+        weight: f64,
+        until: StoppingCriteria,
+    ) -> Result<FlatPart> {
+        let mut laid = self.clone();
+        let pieces = laid.pieces(body);
+        let triangles = pieces.iter().copied().zip(laid.triangles.iter().copied());
+        let edges = laid.border().filter_map(|side| {
+            let [from, to] = half_edge_ends(&laid.triangles, side);
+            let length = length(3 * laid.members[side as usize / 3] + side % 3)?;
+            Some((FlatTriangle::edge(length, weight), [from, to, to]))
+        });
+        let all = triangles.chain(edges).filter(|(piece, _)| piece.exists());
+        let mut problem = ArapMesh::new(&laid.places, all.collect())?;
+        problem.minimise_in_plane(&mut laid.places, until)?;
+        laid.measure(&pieces);
+        Ok(laid)
+    }
+
+    /// Length on the sheet of each half-edge of its triangles, by the half-edges of the whole mesh.
+    pub(super) fn side_lengths(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
+        self.members
+            .iter()
+            .zip(&self.triangles)
+            .flat_map(|(t, corners)| {
+                let place = |k: usize| self.places[corners[k % 3] as usize];
+                [0, 1, 2].map(|k| (3 * t + k as u32, (place(k + 1) - place(k)).norm()))
+            })
+    }
+
     /// Moves the vertices to the positions of least strain, as long as a limit seems within reach; most trials fail, and a few
     /// steps show that.
     pub(super) fn closed(mut self, body: &Body, limit: f64) -> Result<FlatPart> {
@@ -159,7 +194,7 @@ impl FlatPart {
     fn problem(&self, pieces: &[FlatTriangle]) -> Result<ArapMesh> {
         let whole = pieces.iter().copied().zip(self.triangles.iter().copied());
         let whole = whole.filter(|(piece, _)| piece.exists()).collect();
-        ArapMesh::new(&self.places, whole, Vec::new())
+        ArapMesh::new(&self.places, whole)
     }
 
     fn relax(&mut self, pieces: &[FlatTriangle], until: StoppingCriteria) -> Result<()> {

@@ -34,7 +34,7 @@ pub(super) fn refold_sheet(body: &Body, laid: &FlatPart) -> Result<Refolding> {
     let built: Vec<Vector3<f64>> = built.collect();
     let plan: Vec<Point> = built.iter().map(|p| Point::new(p.x, p.y)).collect();
     let mut places = built.clone();
-    let mut sheet = ArapMesh::new(&plan, pieces, Vec::new())?;
+    let mut sheet = ArapMesh::new(&plan, pieces)?;
     sheet.minimise_in_space(&mut places, REFOLDING_RELAXATION)?;
     let strain = sheet.strain_in_space(&places);
     register(&mut places, &built);

@@ -11,7 +11,9 @@ use crate::math::index::NO_INDEX;
 use crate::math::planar::{polygon_area, polyline_length};
 use crate::math::union_find::UnionFind;
 use crate::shape::patches::NO_PATCH;
-use crate::shape::patches::crease::{CreaseNode, crease_lines, smooth_polyline};
+use crate::shape::patches::crease::{
+    CreaseNode, crease_lines, smooth_polyline, smooth_polyline_within,
+};
 
 /// Vertical distance between the two sides of a crease, root mean square along it and in edge lengths of the mesh, above
 /// which the surface has a step there. `benches/patterns.md` has what others give.
@@ -183,6 +185,7 @@ impl Lines {
                 let patch = points[0].1;
                 let all = points.iter().map(|(point, ..)| *point);
                 let closed = all.chain([points[0].0]).collect();
+                let closed = smooth_border(nodes, closed, patch);
                 self.add_border_piece(patch, resampled(closed, length), [None; 2]);
             }
             return;
@@ -205,7 +208,7 @@ impl Lines {
             }
             self.add_border_piece(
                 patch,
-                resampled(piece, length),
+                resampled(smooth_border(nodes, piece, patch), length),
                 [points[from].2, points[to].2],
             );
             from = to;
@@ -309,6 +312,26 @@ impl Lines {
             joined.for_each(|(_, _, lowest)| *lowest = a.min(b));
         }
     }
+}
+
+/// Smooths the border of a patch, seen from above: the border of a surface on a lattice is known to half a spacing. Points that move stay
+/// on the patch.
+fn smooth_border(nodes: &Nodes, line: Vec<[f64; 3]>, patch: u32) -> Vec<[f64; 3]> {
+    let plan: Vec<[f64; 2]> = line.iter().map(|[x, y, _]| [*x, *y]).collect();
+    let reach = 0.5 * nodes.lattice.lattice().spacing();
+    let moved = smooth_polyline_within(&plan, reach).into_iter();
+    let place = |([x, y, z], [u, v]): (&[f64; 3], [f64; 2])| {
+        // Beyond the surface it goes on as it does on the other side of the point.
+        let ahead = nodes.height_at([u, v], patch);
+        let behind = nodes.height_at([2.0 * x - u, 2.0 * y - v], patch);
+        let heights = [ahead, 2.0 * z - behind];
+        let height = heights.into_iter().find(|height| height.is_finite());
+        match height.filter(|_| [u, v] != [*x, *y]) {
+            Some(height) => [u, v, height],
+            None => [*x, *y, *z],
+        }
+    };
+    line.iter().zip(moved).map(place).collect()
 }
 
 /// Points at equal distances along a line, seen from above; the ends stay.

@@ -17,7 +17,7 @@ pub(super) struct BendAngles {
 
 /// Distance from a crease, in vertices, at which the normals on either side are taken: a crease of a fitted surface is
 /// some vertices wide.
-pub(super) const NORMAL_DISTANCE_VERTICES: usize = 4;
+pub(crate) const NORMAL_DISTANCE_VERTICES: usize = 4;
 
 /// Ratio of the default bend angle of a crease to the median over the surface: limits how much of a surface that bends
 /// everywhere is taken for crease. Not tuned by measurements; `tests/native/patches.rs` has the surfaces whose patches it must

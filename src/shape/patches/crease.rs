@@ -24,8 +24,12 @@ pub struct Crease {
     pub fold: f64,
 }
 
-/// Number of smoothing passes of a crease's polyline: enough to remove the zigzag of the lattice's edges.
-const SMOOTHING_PASSES: usize = 8;
+/// Maximum number of smoothing passes of a crease's polyline: they halve waves of eleven edges. `benches/patterns.md` has what others
+/// give.
+const MAX_SMOOTHING_PASSES: usize = 128;
+
+/// Maximum share of the longest wave along a crease's polyline that smoothing takes away.
+const MAX_SHRINKAGE: f64 = 0.01;
 
 /// A node of a crease: the midpoint of an edge between two patches, by its two vertices, the lower number first; or the
 /// centre of a triangle between three patches, by its number and [`NO_INDEX`].
@@ -144,21 +148,67 @@ fn node_position(mesh: &Triangulation, (p, q): CreaseNode) -> [f64; 3] {
     [0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))
 }
 
-/// Smooths a polyline and keeps its ends; a polyline whose last point is the first is closed.
-pub(crate) fn smooth_polyline<const N: usize>(mut points: Vec<[f64; N]>) -> Vec<[f64; N]> {
-    let n = points.len();
-    let closed = n > 3 && points[0] == points[n - 1];
-    for _ in 0..SMOOTHING_PASSES {
-        let last = points.clone();
-        let mean = |a: [f64; N], b: [f64; N], c: [f64; N]| {
-            std::array::from_fn(|k| 0.25 * a[k] + 0.5 * b[k] + 0.25 * c[k])
+/// Smooths a polyline and keeps its ends; a polyline whose last point is the first is closed. Zigzags of two to ten edges go, and
+/// the line shrinks by a hundredth at most.
+pub(crate) fn smooth_polyline<const N: usize>(points: Vec<[f64; N]>) -> Vec<[f64; N]> {
+    smoothed(&points, 1, points.clone(), f64::INFINITY)
+}
+
+/// Smooths a polyline as [`smooth_polyline`] does, and waves of up to a hundred edges, too, but moves no point by more than a given
+/// distance.
+pub(crate) fn smooth_polyline_within<const N: usize>(
+    points: &[[f64; N]],
+    reach: f64,
+) -> Vec<[f64; N]> {
+    let steps = [8, 4, 2, 1].into_iter();
+    steps.fold(points.to_vec(), |moved, step| {
+        smoothed(points, step, moved, reach)
+    })
+}
+
+/// Makes smoothing passes, each of which replaces a point by `(−1, 4, 10, 4, −1) / 16` of every `step`-th point around it: cubics stay as
+/// they are. A point stays within a distance from where it was given.
+fn smoothed<const N: usize>(
+    given: &[[f64; N]],
+    step: usize,
+    mut points: Vec<[f64; N]>,
+    reach: f64,
+) -> Vec<[f64; N]> {
+    let last = points.len() - 1;
+    let is_closed = last > 2 && given[0] == given[last];
+    // Steps of the longest wave along the line, of which a pass takes the fourth power of a sine away.
+    let period = if is_closed { last } else { 2 * last } / step;
+    if period < 4 {
+        return points;
+    }
+    let loss = (std::f64::consts::PI / period as f64).sin().powi(4);
+    let passes = MAX_SMOOTHING_PASSES.min((MAX_SHRINKAGE / loss) as usize);
+    for _ in 0..passes {
+        let before = points.clone();
+        let at = |i: isize| match is_closed {
+            true => before[i.rem_euclid(last as isize) as usize],
+            // Beyond an end the line goes on as its reflection in that.
+            false => {
+                let within = i.clamp(0, last as isize);
+                let mirror = before[(2 * within - i) as usize];
+                std::array::from_fn(|k| match within == i {
+                    true => mirror[k],
+                    false => 2.0 * before[within as usize][k] - mirror[k],
+                })
+            }
         };
-        for i in 1..n.saturating_sub(1) {
-            points[i] = mean(last[i - 1], last[i], last[i + 1]);
+        let inner = if is_closed { 0..last } else { 1..last };
+        for i in inner {
+            let [a, b, c, d] = [-2, -1, 1, 2].map(|k| at(i as isize + k * step as isize));
+            let way: [f64; N] = std::array::from_fn(|k| {
+                (10.0 * before[i][k] + 4.0 * (b[k] + c[k]) - a[k] - d[k]) / 16.0 - given[i][k]
+            });
+            let length = way.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let share = if length > reach { reach / length } else { 1.0 };
+            points[i] = std::array::from_fn(|k| given[i][k] + share * way[k]);
         }
-        if closed {
-            points[0] = mean(last[n - 2], last[0], last[1]);
-            points[n - 1] = points[0];
+        if is_closed {
+            points[last] = points[0];
         }
     }
     points

@@ -24,7 +24,7 @@
 //! # }
 //! ```
 
-mod bend_angles;
+pub(crate) mod bend_angles;
 pub(crate) mod chains;
 pub(crate) mod crease;
 pub(crate) mod extrapolate;

@@ -22,7 +22,7 @@ pub(super) fn curve_through(line: &[[f64; 2]], tolerance: f64) -> Curve {
     let mut curve = Curve::through(&line[..1]);
     let last = points.len() - 1;
     if last == 0 {
-        return curve;
+        return Curve::through(line);
     }
     let is_closed = last > 2 && points[0] == points[last];
     let mut corners: Vec<usize> = (1..last)

@@ -134,7 +134,9 @@ impl<'a> Sheets<'a> {
             let other = lengths.get(twins[side as usize] as usize)?;
             Some(0.5 * (lengths[side as usize] + other)).filter(|length| length.is_finite())
         };
-        for sheet in self.all.iter_mut().flatten() {
+        // What has no area cannot be strained.
+        let sheets = self.all.iter_mut().flatten();
+        for sheet in sheets.filter(|sheet| sheet.laid.area > 0.0) {
             for weight in SIDE_WEIGHTS {
                 let laid = sheet
                     .laid

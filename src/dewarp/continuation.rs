@@ -6,10 +6,6 @@ use crate::error::{Result, checked_cells, try_filled};
 use crate::math::index::NO_INDEX;
 use crate::math::lanes;
 
-/// Minimum side, in pixels, of the square cells of border pixels from which the map is extrapolated by one common
-/// quadratic, which is fitted to a window around it.
-const MIN_CELL_PIXELS: usize = 8;
-
 impl WarpMap {
     /// Adds `margin` pixels on each side of the flat image and extrapolates the sheet to all pixels within that
     /// distance: holes and bays are filled, and a saw-toothed border can be cut straight. Each new pixel is
@@ -23,7 +19,7 @@ impl WarpMap {
         let mut map = self.padded(margin)?;
         let nearest = nearest_sheet_pixels(&map)?;
         // One fit for all pixels that are extrapolated from the same cell.
-        let cell = (margin / 2).max(MIN_CELL_PIXELS);
+        let cell = margin.div_ceil(2).max(1);
         let across = width.div_ceil(cell);
         let mut fits: Vec<Option<Option<LocalQuadratic>>> = Vec::new();
         fits.resize_with(across * height.div_ceil(cell), || None);
@@ -42,7 +38,7 @@ impl WarpMap {
             let [col, row] = edge.map(|v| v as usize / cell);
             let fit = fits[row * across + col].get_or_insert_with(|| {
                 let middle = [col, row].map(|k| (k * cell) as f64 + 0.5 * cell as f64);
-                LocalQuadratic::new(&map, middle, 2.0 * margin.max(MIN_CELL_PIXELS) as f64)
+                LocalQuadratic::new(&map, middle, 4.0 * cell as f64)
             });
             let Some(fit) = fit else { continue };
             let (there, at_edge) = (fit.at(here), fit.at(edge));

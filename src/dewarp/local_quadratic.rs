@@ -6,14 +6,14 @@ use super::WarpMap;
 use crate::math::least_squares::LeastSquares;
 
 /// Number of coefficients of a quadratic in two variables.
-const QUADRATIC_TERMS: usize = 6;
+const QUADRATIC_TERMS: usize = QUADRATIC_FIT_RIDGE_WEIGHTS.len();
 
 /// Maximum number of sampled pixels along each side of the window to which a quadratic is fitted.
 const MAX_SAMPLES_PER_SIDE: usize = 24;
 
 /// Ridge weight of each coefficient of the quadratic, relative to the number of samples: so small that it decides only
 /// what the samples leave undetermined. Curvature is given up first.
-const QUADRATIC_FIT_RIDGE_WEIGHTS: [f64; QUADRATIC_TERMS] = [1e-9, 1e-8, 1e-8, 1e-5, 1e-5, 1e-5];
+const QUADRATIC_FIT_RIDGE_WEIGHTS: [f64; 6] = [1e-9, 1e-8, 1e-8, 1e-5, 1e-5, 1e-5];
 
 /// Quadratic that fits a warp map over a square window: from pixels of the flat image to places in the photo.
 pub(super) struct LocalQuadratic {

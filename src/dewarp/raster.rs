@@ -133,6 +133,10 @@ fn nearest_pieces(
     })
 }
 
+/// Tolerance for rounding errors of interpolation: distance outside of a triangle or of a grid, in pixels or nodes, so that no pixel
+/// falls between two triangles, and weight of a missing value.
+pub(super) const ROUNDING_TOLERANCE: f64 = 1e-6;
+
 impl Pixels<'_> {
     /// Covers the pixels in one triangle: writes their places in the photo, where there is none yet. `overlap` says
     /// whether a triangle lies on another one where both cover a pixel.
@@ -149,16 +153,13 @@ impl Pixels<'_> {
         if area == 0.0 || !area.is_finite() {
             return;
         }
-        /// Distance, in pixels, outside of a triangle up to which a pixel counts as inside, so that none falls between two
-        /// triangles.
-        const MAX_OUTSIDE_PIXELS: f64 = 1e-6;
-        let slack = (MAX_OUTSIDE_PIXELS * area.abs().sqrt() + 1e-12) / area.abs();
+        let slack = (ROUNDING_TOLERANCE * area.abs().sqrt() + 1e-12) / area.abs();
         // Barycentric coordinates are linear along a row, and so are the interpolated attributes.
         let edges = [(b, c), (c, a), (a, b)];
         let slopes = edges.map(|(from, to)| (from[1] - to[1]) / area);
         let along = interpolate(corners, slopes);
-        let top = a[1].min(b[1]).min(c[1]) - MAX_OUTSIDE_PIXELS;
-        let bottom = a[1].max(b[1]).max(c[1]) + MAX_OUTSIDE_PIXELS;
+        let top = a[1].min(b[1]).min(c[1]) - ROUNDING_TOLERANCE;
+        let bottom = a[1].max(b[1]).max(c[1]) + ROUNDING_TOLERANCE;
         // Casts saturate; an empty range is one that ends before it starts.
         let rows =
             top.ceil().max(0.0) as usize..(bottom.floor() + 1.0).clamp(0.0, height as f64) as usize;

@@ -2,6 +2,7 @@
 
 use super::WarpMap;
 use super::local_quadratic::LocalQuadratic;
+use super::raster::ROUNDING_TOLERANCE;
 use crate::error::{Error, Result, positive, try_filled};
 use crate::math::lanes;
 
@@ -37,10 +38,6 @@ const GRID_REFINEMENT_FACTOR: f64 = 1.4;
 
 /// Maximum number of pixels at which the interpolation error of a tried grid is measured.
 const MAX_MEASURED_PIXELS: usize = 200_000;
-
-/// Tolerance for rounding errors of bilinear interpolation: distance outside of the grid, in nodes or pixels, and
-/// weight of a missing value.
-const INTERPOLATION_TOLERANCE: f64 = 1e-6;
 
 impl WarpMap {
     /// Reduces the map to the coarsest grid that is exact to `tolerance`, in pixels of the photo, or else to the finest
@@ -190,8 +187,8 @@ fn bilinear(
     value: impl Fn(usize) -> [f64; 2],
 ) -> Option<[f64; 2]> {
     let [right, bottom] = [columns, rows].map(|n| (n - 1) as f64);
-    if !((-INTERPOLATION_TOLERANCE..=right + INTERPOLATION_TOLERANCE).contains(&x)
-        && (-INTERPOLATION_TOLERANCE..=bottom + INTERPOLATION_TOLERANCE).contains(&y))
+    if !((-ROUNDING_TOLERANCE..=right + ROUNDING_TOLERANCE).contains(&x)
+        && (-ROUNDING_TOLERANCE..=bottom + ROUNDING_TOLERANCE).contains(&y))
     {
         return None;
     }
@@ -206,7 +203,7 @@ fn bilinear(
         (1, 1, fx * fy),
     ] {
         // Values without weight may be missing.
-        if weight.abs() > INTERPOLATION_TOLERANCE {
+        if weight.abs() > ROUNDING_TOLERANCE {
             let found = value((row + dy) * columns + col + dx);
             sum = [sum[0] + weight * found[0], sum[1] + weight * found[1]];
         }

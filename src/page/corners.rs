@@ -1,14 +1,12 @@
 //! Checks of a page's traced edges: their direction and order by the corners at their ends, and whether they cross.
 
-use super::traced_line::{TracedLine, TracedPage};
+use super::traced_line::{EDGE_SEGMENTS, TracedLine, TracedPage};
 use crate::error::{Error, Result};
 use crate::math::planar::{distance, distance_to_segment, orientation, polygon_contains};
 
-/// Maximum number of segments to which a traced edge is thinned before it is compared with others.
-const MAX_CROSSING_SEGMENTS: usize = 1000;
-
-/// Maximum distance between the ends of two edges that share a corner, as a share of the edge's chord.
-const MAX_CORNER_GAP_SHARE: f64 = 0.05;
+/// Maximum error of what is traced by hand, as a share of the edge's chord: the distance between the ends of two edges that
+/// share a corner, or of a line of text outside of its page.
+pub(super) const MAX_TRACING_ERROR: f64 = 0.05;
 
 /// Orients both bent edges of a page alike, so that the corners lie clockwise in the photo, and checks that they can
 /// belong to a page.
@@ -68,7 +66,7 @@ pub(super) fn arrange([first, second]: &mut [TracedLine; 2]) -> Result<()> {
 
 /// At most about as many points of a traced edge as crossings and places beside it are looked for with, its ends among them.
 fn thinned(line: &TracedLine) -> Vec<[f64; 2]> {
-    let step = line.points.len().div_ceil(MAX_CROSSING_SEGMENTS);
+    let step = line.points.len().div_ceil(EDGE_SEGMENTS);
     let last = line.ends()[1];
     (line.points.iter().copied().step_by(step))
         .chain([last])
@@ -117,7 +115,7 @@ pub(super) fn arrange_spread(one: &mut TracedPage, other: &mut TracedPage) -> Re
     let (one, other) = (one.pair(), other.pair());
     for e in 0..2 {
         let apart = distance(one[e].ends()[1], other[e].ends()[0]);
-        if apart > MAX_CORNER_GAP_SHARE * one[e].chord().max(other[e].chord()) {
+        if apart > MAX_TRACING_ERROR * one[e].chord().max(other[e].chord()) {
             return Err(Error::edges(format!(
                 "the {} edges of the two pages end {apart:.0} pixels apart; the pages of a \
                      spread share the gutter, so that one edge begins where the other ends",
@@ -145,7 +143,7 @@ pub(super) fn check_sides(
         };
         let [from, to] = side.ends();
         let apart = off([from, to]).min(off([to, from]));
-        if apart > MAX_CORNER_GAP_SHARE * side.chord().max(first.chord()) {
+        if apart > MAX_TRACING_ERROR * side.chord().max(first.chord()) {
             return Err(Error::edges(format!(
                 "the {} edge ends {apart:.0} pixels from the corner that the {} and {} edges \
                      have there; all four edges go from corner to corner",
@@ -155,9 +153,6 @@ pub(super) fn check_sides(
     }
     Ok(())
 }
-
-/// Maximum distance of a traced line of text outside of its page's outline, as a share of the page's bent edge.
-const MAX_OUTSIDE_SHARE: f64 = 0.03;
 
 /// Checks that all points of a traced line of text lie between the two bent edges of its page. `number` is the line's
 /// number for the error message.
@@ -171,7 +166,7 @@ pub(super) fn check_on_page(
 ) -> Result<()> {
     let mut outline = thinned(first);
     outline.extend(thinned(second).into_iter().rev());
-    let slack = MAX_OUTSIDE_SHARE * first.chord().max(second.chord());
+    let slack = MAX_TRACING_ERROR * first.chord().max(second.chord());
     let sides = || (outline.iter().copied()).zip(outline.iter().cycle().skip(1).copied());
     let is_beside = |at| sides().any(|(p, q)| distance_to_segment(at, [p, q]) < slack);
     for at @ [x, y] in points {

@@ -10,14 +10,9 @@ const FILM_DIAGONAL_MM: f64 = 43.266_615;
 /// Minimum focal length that is accepted, as a multiple of the photo's longer side.
 const MIN_FOCAL_RATIO: f64 = 0.05;
 
-/// Maximum focal length that is accepted, as a multiple of the photo's longer side.
-const MAX_FOCAL_RATIO: f64 = 100.0;
-
-/// Maximum ratio of a page's longer to its shorter side that is accepted.
-const MAX_SIDE_RATIO: f64 = 50.0;
-
-/// Maximum absolute coordinate of a principal point, in diagonals of the photo.
-const MAX_CENTRE_DIAGONALS: f64 = 10.0;
+/// Maximum ratio of two lengths of a page or a photo that is accepted: of a page's sides, of focal length and photo,
+/// and of the principal point's coordinates to the photo's diagonal.
+const MAX_LENGTH_RATIO: f64 = 50.0;
 
 /// Returns the principal point in a photo of `size` (width and height) pixels: that of the options, or the photo's middle.
 ///
@@ -25,7 +20,7 @@ const MAX_CENTRE_DIAGONALS: f64 = 10.0;
 /// [`Error::Option`].
 pub(super) fn principal_point(options: &PageOptions, size: [f64; 2]) -> Result<[f64; 2]> {
     let centre = options.centre.unwrap_or(size.map(|n| (n - 1.0) / 2.0));
-    let most = MAX_CENTRE_DIAGONALS * size[0].hypot(size[1]);
+    let most = MAX_LENGTH_RATIO * size[0].hypot(size[1]);
     if centre.iter().all(|v| v.abs() <= most) {
         return Ok(centre);
     }
@@ -48,9 +43,9 @@ pub(super) fn focal_length(given: FocalLength, size: [f64; 2]) -> Result<Option<
         FocalLength::Film35(length) => ("film35", length, length * diagonal / FILM_DIAGONAL_MM),
     };
     positive(name, value)?;
-    if !(MIN_FOCAL_RATIO * longer..=MAX_FOCAL_RATIO * longer).contains(&found) {
+    if !(MIN_FOCAL_RATIO * longer..=MAX_LENGTH_RATIO * longer).contains(&found) {
         let requirement =
-            "must give between 1/20 of the photo's longer side and 100 times that, in pixels";
+            "must give between 1/20 of the photo's longer side and 50 times that, in pixels";
         return Err(Error::option(name, value, requirement));
     }
     Ok(Some(found))
@@ -104,7 +99,7 @@ pub(super) fn sides(format: Format) -> Result<Option<Sides>> {
         positive("format", side)?;
     }
     let ratio = sides[1] / sides[0];
-    if !(1.0 / MAX_SIDE_RATIO..=MAX_SIDE_RATIO).contains(&ratio) {
+    if !(1.0 / MAX_LENGTH_RATIO..=MAX_LENGTH_RATIO).contains(&ratio) {
         let requirement = "must not be more than 50 times as long as wide";
         return Err(Error::option("format", sides, requirement));
     }

@@ -48,7 +48,6 @@ mod options;
 mod outline;
 mod page_warp;
 mod pixel_grid;
-mod places;
 mod read_traces;
 mod report;
 mod robust_fit;

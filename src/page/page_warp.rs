@@ -7,15 +7,6 @@ use crate::dewarp::{DewarpOptions, Photo, WarpMap};
 use crate::error::{Error, Result, check_count, try_filled};
 use crate::math::lanes;
 
-/// Maximum error of the places between the nodes, as a share of the photo's longer side: 0.04 pixels of 12 megapixels.
-const MAX_INTERPOLATION_ERROR: f64 = 1e-5;
-
-/// Number of cells along each side of the coarsest grid that is tried, between whose lines the places' error is measured.
-const COARSEST_CELLS: usize = 16;
-
-/// Maximum number of cells along a side.
-const MAX_CELLS_PER_SIDE: usize = 512;
-
 /// Warp map of a flat page by shares: places in the photo, in shares of its width and height, at the nodes of a grid over the
 /// page, bilinear in between.
 ///
@@ -63,54 +54,6 @@ impl PageWarp {
             rows,
             places,
         })
-    }
-
-    /// Samples the projection of a page to a photo of `photo` (width and height) pixels, on a grid as fine as its bilinear
-    /// interpolation needs. `project` gives the pixel of a place on the page, in shares of its width and height.
-    pub(super) fn from_projection(
-        size: [f64; 2],
-        millimetres: bool,
-        photo: [usize; 2],
-        project: impl Fn([f64; 2]) -> Option<[f64; 2]>,
-    ) -> Result<Self> {
-        let longer = photo[0].max(photo[1]) as f64;
-        let place = |share| project(share).unwrap_or([f64::NAN; 2]);
-        let cells = [0, 1].map(|axis| {
-            let mut cells = COARSEST_CELLS;
-            let at = |along: f64, across: usize| {
-                let across = across as f64 / COARSEST_CELLS as f64;
-                place(if axis == 0 {
-                    [along, across]
-                } else {
-                    [across, along]
-                })
-            };
-            // Places that are not in front of the camera count as exact.
-            let is_inexact = |cells: usize| {
-                (0..cells * (COARSEST_CELLS + 1)).any(|i| {
-                    let (cell, line) = ((i % cells) as f64, i / cells);
-                    let [p, middle, q] =
-                        [0.0, 0.5, 1.0].map(|step| at((cell + step) / cells as f64, line));
-                    let off = [0, 1].map(|k| middle[k] - 0.5 * (p[k] + q[k]));
-                    off[0].hypot(off[1]) > MAX_INTERPOLATION_ERROR * longer
-                })
-            };
-            while cells < MAX_CELLS_PER_SIDE && is_inexact(cells) {
-                cells *= 2;
-            }
-            cells
-        });
-        let [columns, rows] = cells.map(|cells| cells + 1);
-        let mut places = try_filled("page", columns * rows, [f32::NAN; 2])?;
-        for (i, node) in places.iter_mut().enumerate() {
-            let share = [
-                (i % columns) as f64 / cells[0] as f64,
-                (i / columns) as f64 / cells[1] as f64,
-            ];
-            let found = place(share);
-            *node = [0, 1].map(|k| lanes::single((found[k] + 0.5) / photo[k] as f64));
-        }
-        PageWarp::new(size, millimetres, [columns, rows], places)
     }
 
     /// Width and height of the flat page, in millimetres or in widths of a page.

@@ -1,10 +1,10 @@
 //! Reading of traced edges and lines of text: checks them and brings them into a common order.
 
-use super::corners::{arrange, arrange_spread, check_on_page, check_sides};
+use super::corners::{MAX_TRACING_ERROR, arrange, arrange_spread, check_on_page, check_sides};
 use super::edges::{Edges, Trace};
 use super::traced_line::{BentEdges, TracedLine, TracedPage};
 use crate::error::{Error, Result};
-use crate::math::planar::{distance, polyline_length, principal_line};
+use crate::math::planar::{polyline_length, principal_line};
 
 /// Number of points at which each cubic Bézier curve of a trace is sampled.
 const BEZIER_SAMPLES: usize = 12;
@@ -12,16 +12,9 @@ const BEZIER_SAMPLES: usize = 12;
 /// Maximum number of points of one traced edge; more are an error.
 const MAX_EDGE_POINTS: usize = 100_000;
 
-/// Minimum distance, in pixels, between the two ends of a traced edge.
-const MIN_EDGE_LENGTH: f64 = 2.0;
-
 /// Ratio of the length of the polyline through an edge's points as given to that through the sorted points, above which
 /// the points are taken for disordered and are sorted.
 const DISORDER_LENGTH_RATIO: f64 = 1.5;
-
-/// Maximum distance of a traced point outside of the photo, as a share of the photo's diagonal; points further away are
-/// an error.
-const MAX_OUTSIDE_SHARE: f64 = 0.05;
 
 /// Maximum number of lines of text that the caller may trace on all pages.
 const MAX_TEXT_LINES: usize = 500;
@@ -218,7 +211,7 @@ fn read_line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result
         }
     };
     let ends = match &points[..] {
-        [first, .., last] if distance(*first, *last) >= MIN_EDGE_LENGTH => [*first, *last],
+        [first, .., last] if first != last => [*first, *last],
         _ => {
             return Err(Error::edges(format!(
                 "{} must go from one {} to the other, through at least 2 different points",
@@ -232,7 +225,7 @@ fn read_line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result
         }
     };
     let [width, height] = photo.map(|n| n as f64);
-    let slack = MAX_OUTSIDE_SHARE * width.hypot(height);
+    let slack = MAX_TRACING_ERROR * width.hypot(height);
     let outside = |p: &&[f64; 2]| {
         let within = |v: f64, end: f64| (-slack..=end + slack).contains(&v);
         !(within(p[0], width) && within(p[1], height))

@@ -4,14 +4,14 @@ use super::edges::{Edges, Trace};
 use super::known_sizes::sides;
 use super::options::{Format, PageOptions};
 use super::page_warp::PageWarp;
-use super::places::back_project;
 use super::read_traces::{page_that_fills, read_traces};
 use super::report::PageReport;
-use super::sheet::SheetPage;
+use super::sheet::{SheetPage, node_shares};
 use super::traced_line::BentEdges;
 use super::working_photo::WorkingPhoto;
 use crate::dewarp::{DewarpOptions, Photo, WarpMap};
-use crate::error::{Error, Readable, Result, positive};
+use crate::error::{Error, Readable, Result, positive, try_filled};
+use crate::math::lanes;
 use crate::progress;
 use crate::scene::mesh::Mesh;
 
@@ -33,9 +33,6 @@ pub struct PageSurface {
     report: PageReport,
 }
 
-/// Minimum length of a ruler (a known distance on the page), as a share of the flat page's shorter side.
-const MIN_RULER_SHARE: f64 = 0.01;
-
 impl PageSurface {
     /// Finds the page whose edges are traced in a photo of `photo` (width and height) pixels, with lines of text that are
     /// traced like edges but from their beginning to their end, for each page in the order of `edges`: they are level on the
@@ -47,7 +44,7 @@ impl PageSurface {
     /// # Errors
     /// [`Error::Edges`] for edges that cannot belong to one page: with fewer than two points, with corners that make no
     /// convex quadrilateral, crossing, exchanged or outside of the photo; and for a line of text beside its page, by more than
-    /// 3 % of the page's edge. [`Error::NotFinite`] for a coordinate that is no number (its row is the point),
+    /// 5 % of the page's edge. [`Error::NotFinite`] for a coordinate that is no number (its row is the point),
     /// [`Error::Option`] for a number out of its range and lines of more pages than there are, [`Error::Empty`] for a photo
     /// without pixels, [`Error::TooLarge`] for an edge of more than 100,000 points or more than 500 lines.
     pub fn new(
@@ -205,7 +202,7 @@ impl PageSurface {
             return Ok(1.0);
         };
         let length = positive("ruler.length", ruler.length)?;
-        let end = |pixel| back_project(|share| Some(self.photo_place(share)), pixel);
+        let end = |pixel| self.page_place(pixel);
         let (Some(from), Some(to)) = (end(ruler.from), end(ruler.to)) else {
             let ends = format!("from {} to {}", ruler.from.readable(), ruler.to.readable());
             return Err(Error::option(
@@ -216,11 +213,7 @@ impl PageSurface {
         };
         let [width, height] = self.size;
         let found = ((from[0] - to[0]) * width).hypot((from[1] - to[1]) * height);
-        if found.is_nan() || found <= MIN_RULER_SHARE * width.min(height) {
-            let requirement = "must be at least a hundredth of the page's side long";
-            return Err(Error::option("ruler", found, requirement));
-        }
-        Ok(length / found)
+        Ok(length / positive("ruler", found)?)
     }
 
     /// Verdict on the page, with the measures of its fit; of a spread that of the worse page.
@@ -254,13 +247,26 @@ impl PageSurface {
         let at = share[self.axis];
         let last = self.pages.len() - 1;
         let number = self.ends.iter().take(last).filter(|end| **end < at).count();
-        let start = if number > 0 {
-            self.ends[number - 1]
-        } else {
-            0.0
-        };
+        let start = self.start(number);
         share[self.axis] = (at - start) / (self.ends[number] - start);
-        self.pages[number].place(share)
+        self.pages[number].table().at(share)
+    }
+
+    /// Share of the flat page's side at which a page of a spread begins.
+    fn start(&self, number: usize) -> f64 {
+        number
+            .checked_sub(1)
+            .map_or(0.0, |before| self.ends[before])
+    }
+
+    /// Place on the flat page, in shares of its width and height, that the photo shows at a pixel; None beside the page.
+    fn page_place(&self, pixel: [f64; 2]) -> Option<[f64; 2]> {
+        let mut found = (self.pages.iter().enumerate())
+            .filter_map(|(number, page)| Some((number, page.table().back_project(pixel)?)));
+        let (number, mut share) = found.next()?;
+        let start = self.start(number);
+        share[self.axis] = start + share[self.axis] * (self.ends[number] - start);
+        Some(share)
     }
 
     /// Computes the page's warp map, which holds for photos of any resolution of the picture.
@@ -268,9 +274,15 @@ impl PageSurface {
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn warp(&self) -> Result<PageWarp> {
-        PageWarp::from_projection(self.size, self.millimetres, self.photo, |share| {
-            Some(self.photo_place(share))
-        })
+        // The nodes of the pages' own tables, between which their places are bilinear.
+        let mut nodes = self.pages[0].table().nodes();
+        nodes[self.axis] = 1 + self.pages.len() * (nodes[self.axis] - 1);
+        let mut places = try_filled("page", nodes[0] * nodes[1], [f32::NAN; 2])?;
+        for (place, share) in places.iter_mut().zip(node_shares(nodes)) {
+            let found = self.photo_place(share);
+            *place = [0, 1].map(|k| lanes::single((found[k] + 0.5) / self.photo[k] as f64));
+        }
+        PageWarp::new(self.size, self.millimetres, nodes, places)
     }
 
     /// Computes the warp map of the flat page: for each pixel of the flat image its place in the photo. `dots` are

@@ -2,6 +2,9 @@
 
 use crate::math::planar::distance;
 
+/// Number of segments to which each traced edge is reduced.
+pub(super) const EDGE_SEGMENTS: usize = 160;
+
 /// A traced edge or line of text as points in the photo, in the direction of the page's order.
 #[derive(Debug, Clone)]
 pub(super) struct TracedLine {

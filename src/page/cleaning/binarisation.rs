@@ -7,18 +7,12 @@ use crate::page::outline::{closed_plane, square_extreme};
 /// on A4.
 const STROKE_RADIUS_SHARE: f64 = 0.006;
 
-/// Radius of the square in which the darkest pixel is a stroke's own, as a share of the page's longer side: 0.9 mm on A4.
-const LETTER_RADIUS_SHARE: f64 = 0.003;
-
 /// Minimum difference of luminance between a stroke and what is around it, of 255.
 const MIN_STROKE_CONTRAST: f32 = 28.0;
 
 /// Share of the way from what is around a stroke to the stroke's extreme at which the stroke begins: less than a half, as thin
 /// strokes are paler than the thick ones beside them. Chosen by `benches/page.md`.
 const STROKE_THRESHOLD_SHARE: f32 = 0.3;
-
-/// Luminance below which an area is dark, of 255.
-const MAX_DARK_LUMINANCE: f32 = 128.0;
 
 /// Number of rows of a page that are binarised together, which bounds the memory.
 const BAND_ROWS: usize = 512;
@@ -37,8 +31,11 @@ pub fn binarise(width: usize, height: usize, luminance: &mut [u8]) -> Result<()>
     if luminance.is_empty() {
         return Ok(());
     }
-    let [stroke, letter] = [STROKE_RADIUS_SHARE, LETTER_RADIUS_SHARE]
-        .map(|share| ((share * width.max(height) as f64) as usize).max(1));
+    // The darkest pixel within half the radius is a stroke's own.
+    let [stroke, letter] = [1.0, 0.5].map(|part| {
+        let radius = part * STROKE_RADIUS_SHARE * width.max(height) as f64;
+        (radius as usize).max(1)
+    });
     let mut found = try_filled("flat page", luminance.len(), 0)?;
     for start in (0..height).step_by(BAND_ROWS) {
         let end = (start + BAND_ROWS).min(height);
@@ -52,7 +49,7 @@ pub fn binarise(width: usize, height: usize, luminance: &mut [u8]) -> Result<()>
         for i in (start - from) * width..(end - from) * width {
             let [value, paper, ground, dark, light] =
                 [band[i], closed[i], opened[i], darkest[i], lightest[i]].map(f32::from);
-            let is_dark_area = value < MAX_DARK_LUMINANCE;
+            let is_dark_area = band[i] <= u8::MAX / 2;
             let is_ink = is_stroke(paper - value, paper - dark)
                 || (is_dark_area && !is_light_stroke(value - ground, light - ground));
             found[from * width + i] = if is_ink { 0 } else { u8::MAX };

@@ -4,11 +4,7 @@ use super::Light;
 use super::fill::fill_gaps;
 use super::paper::find_paper;
 use crate::error::{Result, try_filled};
-use crate::page::outline::{LOG_OFFSET, Planes, box_mean, closed};
-
-/// Number of cells along a page's longer side in which the light is estimated: 0.4 mm on A4, so that the edge of a hard
-/// shadow is followed.
-const CELLS_ALONG_SIDE: usize = 800;
+use crate::page::outline::{LOG_OFFSET, MAX_REDUCED_SIDE, Planes, box_mean, closed};
 
 /// Maximum width of a stroke or a bar of print, as a share of the page's longer side, that does not count as paper whatever its
 /// colour: 12 mm on A4, since heads of tables have 10 mm, with edges that are blurred and tilted. A narrower shadow is taken
@@ -55,7 +51,7 @@ impl LightEstimator {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn new(width: usize, height: usize) -> Result<Self> {
-        let cell = width.max(height).div_ceil(CELLS_ALONG_SIDE).max(1);
+        let cell = width.max(height).div_ceil(MAX_REDUCED_SIDE).max(1);
         let (columns, rows) = (width.div_ceil(cell), height.div_ceil(cell));
         Ok(LightEstimator {
             width,

@@ -1,9 +1,6 @@
 //! Cells of a flat page that show paper, as opposed to what is printed with an edge of its own.
 
-use crate::page::outline::{Planes, box_mean, flood};
-
-/// Minimum step of a printed edge, in logarithms of a colour component: a pale tint has 0.05, the grain of paper 0.01.
-const MIN_EDGE_STEP: f32 = 0.04;
+use crate::page::outline::{MIN_EDGE_CONTRAST, Planes, box_mean, flood};
 
 /// Number of cells on each side of an edge over which its whole step is measured: together 2 mm on A4.
 const EDGE_REACH_CELLS: usize = 3;
@@ -62,7 +59,7 @@ fn is_printed_edge(planes: &Planes, i: usize) -> bool {
         [true, false].iter().any(|is_row| {
             let near = step(plane, 1, *is_row).abs();
             let whole = step(plane, EDGE_REACH_CELLS, *is_row).abs();
-            near > MIN_EDGE_STEP && near > MIN_SHARP_SHARE * whole
+            near > MIN_EDGE_CONTRAST && near > MIN_SHARP_SHARE * whole
         })
     })
 }

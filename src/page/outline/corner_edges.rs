@@ -11,9 +11,6 @@ use crate::dewarp::Photo;
 use crate::math::planar::{distance, polygon_contains, polyline_length};
 use crate::page::edges::{Edges, Trace};
 
-/// Maximum length of an edge, as a multiple of the distance between its ends: a half circle has 1.57.
-const MAX_EDGE_LENGTH_RATIO: f64 = 1.57;
-
 /// Traces in a photo those edges of pages that are given by two points alone, the page's corners at their ends. The edge
 /// between them may be bent: its first guess is the border of what has the colours of the page between the corners. A corner
 /// is moved to where two traced edges meet nearby.
@@ -190,6 +187,7 @@ fn arc_between(border: &[[f64; 2]], ends: [[f64; 2]; 2], tolerance: f64) -> Opti
         .chain(moved.last())
         .copied()
         .collect();
-    let limit = MAX_EDGE_LENGTH_RATIO * distance(ends[0], ends[1]);
+    // At most a half circle.
+    let limit = std::f64::consts::FRAC_PI_2 * distance(ends[0], ends[1]);
     (polyline_length(&coarse) <= limit).then_some(moved)
 }

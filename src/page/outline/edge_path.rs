@@ -10,14 +10,13 @@ use crate::page::best_path::best_path;
 /// photo.
 const BAND_RADIUS: usize = 10;
 
+/// Half the length, in pixels of the reduced photo, over which colours and contrast are averaged along an edge, and length of its
+/// bends that are smoothed: those of frayed paper and of patterns of the ground. Chosen by `benches/page.md`.
+pub(super) const AVERAGING_RADIUS: usize = 8;
+
 /// Number of pixels by which colour profiles across the border extend beyond the searched band on each side, for the
 /// colours of paper and background.
-const BAND_MARGIN: usize = 4;
-
-/// Length, in pixels of the reduced photo, of the bends of a page's traced edge that are smoothed: those of frayed paper and of
-/// patterns of the ground. Half the length over which the colours along a region's border are averaged. Chosen by
-/// `benches/page.md`.
-const SMOOTHING_LENGTH: usize = 8;
+const BAND_MARGIN: usize = AVERAGING_RADIUS / 2;
 
 /// Length, in pixels, of the bends of a region's border that are smoothed before the page's edge is searched beside it.
 /// Its row: `benches/page.md`, Constants of the outline.
@@ -33,9 +32,10 @@ const STEP_COST: f32 = 0.15;
 /// Its row: `benches/page.md`, Constants of the outline.
 const WEAK_CONTRAST: f32 = 0.15;
 
-/// Minimum difference of logarithmic colour across an edge of a page that counts as visible: 4 % of the light.
+/// Minimum difference of logarithmic colour across an edge, of a page or of a printed area, that counts as visible: 4 % of the
+/// light. A pale tint has 0.05, the grain of paper 0.01.
 /// Its row: `benches/page.md`, One rule at a time.
-const MIN_EDGE_CONTRAST: f32 = 0.04;
+pub(in crate::page) const MIN_EDGE_CONTRAST: f32 = 0.04;
 
 /// Difference of logarithmic colour across an edge of a page at which the edge's contrast has a score of one half.
 /// Its row: `benches/page.md`, Constants of the outline.
@@ -76,8 +76,8 @@ fn inward_normals(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     (0..n)
         .map(|i| {
             let (a, b) = (
-                points[i.saturating_sub(SMOOTHING_LENGTH)],
-                points[(i + SMOOTHING_LENGTH).min(n - 1)],
+                points[i.saturating_sub(AVERAGING_RADIUS)],
+                points[(i + AVERAGING_RADIUS).min(n - 1)],
             );
             let length = distance(a, b).max(1e-9);
             [(a[1] - b[1]) / length, (b[0] - a[0]) / length]
@@ -129,8 +129,8 @@ impl Band {
 
     /// Mean colours of background and paper, averaged over the profiles near point `i` of the border.
     fn sides(&self, i: usize) -> [[f32; 3]; 2] {
-        let from = i.saturating_sub(SMOOTHING_LENGTH);
-        let near = &self.profiles[from..(i + SMOOTHING_LENGTH + 1).min(self.profiles.len())];
+        let from = i.saturating_sub(AVERAGING_RADIUS);
+        let near = &self.profiles[from..(i + AVERAGING_RADIUS + 1).min(self.profiles.len())];
         [
             mean_colour(near.iter().flat_map(|profile| &profile[..SIDE_LENGTH])),
             mean_colour(
@@ -182,7 +182,7 @@ impl EdgePath {
             &resampled(border),
             BORDER_SMOOTHING_LENGTH,
         ));
-        if border.len() <= 2 * SMOOTHING_LENGTH {
+        if border.len() <= 2 * AVERAGING_RADIUS {
             return None;
         }
         let normals = inward_normals(&border);
@@ -225,7 +225,7 @@ impl EdgePath {
         let mut contrasts: Vec<f64> = contrasts.iter().map(|c| f64::from(*c)).collect();
         let contrast = crate::math::statistics::median(&mut contrasts).unwrap_or(0.0);
         Some(EdgePath {
-            points: piecewise_smooth(&points, SMOOTHING_LENGTH as f64),
+            points: piecewise_smooth(&points, AVERAGING_RADIUS as f64),
             support,
             visible,
             contrast,

@@ -25,8 +25,9 @@ mod smooth_curve;
 mod tracing;
 
 pub use corner_edges::trace_edges;
+pub(super) use edge_path::MIN_EDGE_CONTRAST;
 pub(super) use morphology::{box_mean, closed, closed_plane, square_extreme, vertical_extreme};
 pub use outline_report::{OutlineReason, OutlineReport, OutlineVerdict, PageOutline};
-pub(super) use planes::{LOG_OFFSET, Planes};
+pub(super) use planes::{LOG_OFFSET, MAX_REDUCED_SIDE, Planes};
 pub(super) use region::flood;
 pub use search::find_outline;

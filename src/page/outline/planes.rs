@@ -3,9 +3,9 @@
 use crate::dewarp::Photo;
 use crate::page::working_photo::WorkingPhoto;
 
-/// Maximum length of a reduced photo's longer side, in pixels: the page's edges are found to a tenth of such a pixel,
-/// and twelve megapixels cost one pass over the photo.
-const MAX_REDUCED_SIDE: usize = 800;
+/// Maximum length of the longer side of a reduced photo or flat page, in pixels: a photo's edges are found to a tenth of such a
+/// pixel, and the edge of a hard shadow is followed, as one is 0.4 mm on A4; twelve megapixels cost one pass.
+pub(in crate::page) const MAX_REDUCED_SIDE: usize = 800;
 
 /// Number added to a colour component (0 to 255) before its logarithm is taken, so that noise of dark pixels counts
 /// little.

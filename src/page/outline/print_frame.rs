@@ -4,6 +4,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use super::edge_path::AVERAGING_RADIUS;
 use super::morphology::{box_mean, vertical_mean};
 use super::planes::Planes;
 use super::print::Print;
@@ -13,10 +14,6 @@ use crate::page::best_path::{best_path, smooth_path};
 
 /// Number of directions among which that of the lines of print is searched, over half a turn.
 const PRINT_DIRECTIONS: usize = 90;
-
-/// Half the length, in pixels, over which contrast is averaged along an edge, and half the width of the band beside a path that no
-/// other path enters.
-const AVERAGING_RADIUS: usize = 8;
 
 /// Slopes of edges relative to the frame at which contrast is averaged: perspective turns edges from the lines of print.
 /// Its row: `benches/page.md`, Constants of the outline.
@@ -101,7 +98,7 @@ struct Side {
 }
 
 impl Side {
-    /// Finds the best paths that keep apart from each other; each beside a smooth one if `is_smooth`.
+    /// Finds the best paths that keep apart from each other by the averaging radius; each beside a smooth one if `is_smooth`.
     fn best_paths(&self, is_smooth: bool) -> [Vec<usize>; PATHS_PER_SIDE] {
         let mut worth = self.worth.clone();
         std::array::from_fn(|_| {

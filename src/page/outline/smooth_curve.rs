@@ -8,10 +8,6 @@ use crate::page::robust_fit;
 /// Its row: `benches/page.md`, Constants of the outline.
 const REWEIGHTING_ROUNDS: usize = 6;
 
-/// Distance of a point from the curve, in pixels, above which the point is an outlier and counts less.
-/// Its row: `benches/page.md`, One rule at a time.
-const OUTLIER_DISTANCE: f64 = 1.0;
-
 /// Change of the curve's direction from point to point, in radians for points one pixel apart, above which it counts as a
 /// fold, which is penalised by its angle and not by its square.
 /// Its row: `benches/page.md`, One rule at a time.
@@ -30,7 +26,8 @@ pub(super) fn piecewise_smooth(points: &[[f64; 2]], length: f64) -> Vec<[f64; 2]
         let trust: Vec<f64> = (points.iter().zip(&curve))
             .map(|(p, on)| {
                 let off = (Vector2::from(*p) - on).norm();
-                robust_fit::weight(off / OUTLIER_DISTANCE)
+                // A point more than a pixel off is an outlier and counts less.
+                robust_fit::weight(off)
             })
             .collect();
         if round > 0 {

@@ -12,15 +12,12 @@ pub(super) struct SheetCamera {
     pub centre: [f64; 2],
 }
 
-/// Minimum depth at which a point counts as in front of the camera, in widths of the page.
-const MIN_DEPTH: f64 = 0.05;
-
 impl SheetCamera {
     /// Projects a point in the camera's axes to normalised image coordinates (pixels from the nominal principal point,
     /// over the nominal focal length); None if it is not in front of the camera.
     pub fn project(&self, point: Vector3<f64>) -> Option<[f64; 2]> {
         let scale = self.log_scale.exp();
-        (point.z > MIN_DEPTH).then(|| {
+        (point.z > 0.0).then(|| {
             [
                 self.centre[0] + scale * point.x / point.z,
                 self.centre[1] + scale * point.y / point.z,

@@ -11,6 +11,10 @@ use crate::page::robust_fit::{self, RobustProblem};
 /// of the page's sides.
 const CAMERA_UNKNOWNS: usize = 4;
 
+/// Relative change of the cost by one step below which the fit of a sheet has converged.
+/// Its row: `benches/page.md`, Constants of the outline.
+const COST_TOLERANCE: f64 = 0.01;
+
 /// A sheet in space that was fitted to a photo of a page, with the position on the page (share of its height or width)
 /// of each line of print and, after these, of each fold.
 #[derive(Debug, Clone)]
@@ -33,11 +37,9 @@ impl FittedSheet {
 }
 
 impl SheetProblem {
-    /// Finds the sheet that fits the photo best, from an initial guess: by at most `steps` steps, until one lowers the cost by
-    /// less than the share `tolerance`. None if the initial sheet is not in front of the camera.
-    pub fn solve(&self, start: FittedSheet, steps: usize, tolerance: f64) -> Option<FittedSheet> {
-        let start = self.with_cost(start)?;
-        robust_fit::fit(self, start, steps, |cost| tolerance * cost)
+    /// Finds the sheet that fits the photo best, from an initial guess. None if that is not in front of the camera.
+    pub fn solve(&self, start: FittedSheet) -> Option<FittedSheet> {
+        robust_fit::fit(self, self.with_cost(start)?, |cost| COST_TOLERANCE * cost)
     }
 
     /// Returns a sheet with its cost: the sum of the robust penalties of its weighted residuals. None if the sheet is not in

@@ -35,7 +35,7 @@ pub(super) fn cell_at(share: f64, nodes: usize) -> (usize, f64) {
 }
 
 /// Places of the nodes of a grid of `cols` by `rows` nodes, row by row, in shares of its width and height.
-pub(super) fn node_shares([cols, rows]: [usize; 2]) -> impl Iterator<Item = [f64; 2]> {
+pub(in crate::page) fn node_shares([cols, rows]: [usize; 2]) -> impl Iterator<Item = [f64; 2]> {
     (0..cols * rows).map(move |i| {
         [
             (i % cols) as f64 / (cols - 1) as f64,

@@ -3,7 +3,6 @@
 use super::place_table::PlaceTable;
 use super::problem::LevelLine;
 use super::view::PhotoView;
-use crate::page::places::back_project;
 use crate::page::text::{GreyPhoto, find_baselines};
 
 /// Maximum number of points of one detected line that are used.
@@ -31,10 +30,7 @@ pub(super) fn traced_level_lines(
     view: &PhotoView,
     traced: &[Vec<[f64; 2]>],
 ) -> Vec<LevelLine> {
-    let on_page = |seen: &[f64; 2]| {
-        let share = back_project(|share| Some(table.at(share)), view.to_pixels(*seen))?;
-        Some((share, *seen))
-    };
+    let on_page = |seen: &[f64; 2]| Some((table.back_project(view.to_pixels(*seen))?, *seen));
     (traced.iter())
         .filter_map(|line| level_line(line.iter().filter_map(on_page).collect()))
         .collect()

@@ -24,4 +24,5 @@ mod search;
 mod sheet_page;
 mod view;
 
+pub(super) use grid::node_shares;
 pub(super) use sheet_page::SheetPage;

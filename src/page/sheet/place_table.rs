@@ -3,7 +3,7 @@
 use super::grid::{SheetGrid, cell_at, node_shares};
 use super::view::PhotoView;
 use crate::error::{Error, Result};
-use crate::math::planar::polyline_length;
+use crate::math::planar::{distance, polyline_length};
 
 /// Number of table cells along each side of a cell of the sheet's grid: bilinear interpolation is exact to a hundredth
 /// of a pixel then.
@@ -11,7 +11,7 @@ const CELLS_PER_GRID_CELL: usize = 6;
 
 /// Places in the photo, in pixels, at the nodes of a grid over the flat page; interpolated bilinearly in between.
 #[derive(Debug, Clone)]
-pub(super) struct PlaceTable {
+pub(in crate::page) struct PlaceTable {
     cols: usize,
     rows: usize,
     places: Vec<[f64; 2]>,
@@ -22,7 +22,7 @@ impl PlaceTable {
     ///
     /// # Errors
     /// [`Error::Empty`] for a sheet that is not in front of the camera.
-    pub fn new(grid: &SheetGrid, view: &PhotoView) -> Result<Self> {
+    pub(super) fn new(grid: &SheetGrid, view: &PhotoView) -> Result<Self> {
         let [cols, rows] = [grid.cols, grid.rows].map(|n| (n - 1) * CELLS_PER_GRID_CELL + 1);
         let places: Option<Vec<_>> = node_shares([cols, rows])
             .map(|share| {
@@ -52,6 +52,35 @@ impl PlaceTable {
             length(self.cols, |along| [along, 0.5]),
             length(self.rows, |along| [0.5, along]),
         ]
+    }
+
+    /// Numbers of columns and rows of the table's nodes.
+    pub fn nodes(&self) -> [usize; 2] {
+        [self.cols, self.rows]
+    }
+
+    /// Finds the place on the flat page, in shares of its width and height, that the photo shows at a pixel: from the nearest
+    /// node in ever smaller steps to the nearest place. None if the pixel is not on the page.
+    pub fn back_project(&self, pixel: [f64; 2]) -> Option<[f64; 2]> {
+        let off = |share: [f64; 2]| distance(self.at(share), pixel);
+        let nearest = |one: &[f64; 2], other: &[f64; 2]| off(*one).total_cmp(&off(*other));
+        let mut best = node_shares([self.cols, self.rows]).min_by(nearest)?;
+        let mut step = self.nodes().map(|nodes| 1.0 / (nodes - 1) as f64);
+        while step[0] > f64::EPSILON {
+            let around = (0..9).map(|k| {
+                let sides = [k % 3, k / 3].map(|side| f64::from(side) - 1.0);
+                [0, 1].map(|j| (best[j] + sides[j] * step[j]).clamp(0.0, 1.0))
+            });
+            let found = around
+                .min_by(nearest)
+                .filter(|found| off(*found) < off(best));
+            match found {
+                Some(found) => best = found,
+                None => step = step.map(|step| 0.5 * step),
+            }
+        }
+        // To one pixel: outside of the page the nearest place on it is farther away.
+        (off(best) < 1.0).then_some(best)
     }
 
     /// Interpolates the place in the photo, in pixels, at shares of the page's width and height.

@@ -34,9 +34,6 @@ const RECTANGLE_DEVIATION: f64 = 0.02;
 /// geometric mean of common formats.
 pub(super) const UNKNOWN_RATIO_DEVIATION: f64 = 0.5;
 
-/// Logarithm of √2, which is the ratio of longer to shorter side of most paper formats.
-const COMMON_LOG_RATIO: f64 = 0.346_573_590_279_972_64;
-
 /// Number of Gauss-Newton steps by which the camera is found for which four corners in the photo are those of a
 /// rectangle.
 const CAMERA_STEPS: usize = 12;
@@ -45,7 +42,8 @@ impl CameraPrior {
     /// Returns mean and standard deviation of the logarithm of the page's height over its width. The ratio as seen in
     /// the photo, `apparent`, tells portrait from landscape.
     pub fn ratio(&self, apparent: f64) -> [f64; 2] {
-        let common = COMMON_LOG_RATIO * (apparent - 1.0).signum();
+        // Of most formats the ratio of longer to shorter side is √2.
+        let common = std::f64::consts::SQRT_2.ln() * (apparent - 1.0).signum();
         self.log_ratio.unwrap_or([common, UNKNOWN_RATIO_DEVIATION])
     }
 }

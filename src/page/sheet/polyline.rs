@@ -1,6 +1,6 @@
 //! Polylines in a photo: nearest points and normals of a page's traced edges.
 
-use crate::math::planar::{distance, principal_line};
+use crate::math::planar::principal_line;
 
 /// A curve of straight segments.
 #[derive(Debug, Clone)]
@@ -28,24 +28,7 @@ impl Polyline {
 
     /// Resamples a traced curve to segments of equal length.
     pub fn resampled(points: &[[f64; 2]], segments: usize) -> Self {
-        let mut lengths = vec![0.0];
-        for w in points.windows(2) {
-            lengths.push(lengths[lengths.len() - 1] + distance(w[0], w[1]));
-        }
-        let total = lengths[lengths.len() - 1];
-        let mut piece = 0;
-        let resampled = (0..=segments)
-            .map(|i| {
-                let at = total * i as f64 / segments as f64;
-                while piece + 2 < points.len() && lengths[piece + 1] < at {
-                    piece += 1;
-                }
-                let span = (lengths[piece + 1] - lengths[piece]).max(1e-300);
-                let t = ((at - lengths[piece]) / span).clamp(0.0, 1.0);
-                [0, 1].map(|k| points[piece][k] + t * (points[piece + 1][k] - points[piece][k]))
-            })
-            .collect();
-        Polyline::new(resampled)
+        Polyline::new(equidistant(points, segments + 1).0)
     }
 
     /// Vertices of the polyline.
@@ -91,4 +74,30 @@ impl Polyline {
         let (mean, [cos, sin]) = principal_line(inner);
         [mean, [mean[0] + cos, mean[1] + sin]]
     }
+}
+
+/// Resamples a curve, given by at least two points, to `count` points at equal distances along it; returns them with the
+/// curve's length.
+pub(super) fn equidistant<const N: usize>(
+    points: &[[f64; N]],
+    count: usize,
+) -> (Vec<[f64; N]>, f64) {
+    let mut lengths = vec![0.0];
+    for pair in points.windows(2) {
+        let squares = (0..N).map(|k| (pair[1][k] - pair[0][k]).powi(2));
+        lengths.push(lengths[lengths.len() - 1] + squares.sum::<f64>().sqrt());
+    }
+    let total = lengths[lengths.len() - 1];
+    let resampled = (0..count)
+        .map(|i| {
+            let at = total * i as f64 / (count - 1) as f64;
+            let after = lengths.partition_point(|length| *length < at);
+            let after = after.clamp(1, points.len() - 1);
+            let span = (lengths[after] - lengths[after - 1]).max(1e-300);
+            let t = (at - lengths[after - 1]) / span;
+            let (from, to) = (points[after - 1], points[after]);
+            std::array::from_fn(|k| from[k] + t * (to[k] - from[k]))
+        })
+        .collect();
+    (resampled, total)
 }

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::grid::{SheetGrid, node_shares};
 use super::plane::{CameraPrior, Homography, UNKNOWN_RATIO_DEVIATION, grid_rows};
-use super::polyline::Polyline;
+use super::polyline::{Polyline, equidistant};
 
 impl Homography {
     /// Makes the sheet of a page that is curled in one direction: the ruled surface between its upper and lower edge, or
@@ -40,10 +40,10 @@ impl Homography {
             (cols, 1.0)
         };
         let curves = pair.map(|(edge, start)| {
-            let points: Vec<Vector3<f64>> = (edge.points().iter())
+            let points: Vec<[f64; 3]> = (edge.points().iter())
                 .map(|seen| {
                     let ray = plane.camera.ray(*seen);
-                    ray * (start.dot(&rulings) / ray.dot(&rulings))
+                    (ray * (start.dot(&rulings) / ray.dot(&rulings))).into()
                 })
                 .collect();
             equidistant(&points, count)
@@ -57,7 +57,8 @@ impl Homography {
                 } else {
                     (i % cols, down)
                 };
-                one.0[along].lerp(&other.0[along], share) / unit
+                let [from, to] = [&one.0, &other.0].map(|curve| Vector3::from(curve[along]));
+                from.lerp(&to, share) / unit
             })
             .collect();
         let visible = (nodes.iter()).all(|node| plane.camera.project(*node).is_some());
@@ -69,27 +70,6 @@ impl Homography {
             ..plane
         })
     }
-}
-
-/// Resamples a curve in space, given by at least two points, to `count` points at equal distances along it; returns them
-/// with the curve's length.
-fn equidistant(points: &[Vector3<f64>], count: usize) -> (Vec<Vector3<f64>>, f64) {
-    let mut lengths = vec![0.0];
-    for pair in points.windows(2) {
-        lengths.push(lengths[lengths.len() - 1] + (pair[1] - pair[0]).norm());
-    }
-    let total = lengths[lengths.len() - 1];
-    let resampled = (0..count)
-        .map(|i| {
-            let at = total * i as f64 / (count - 1) as f64;
-            let after = lengths.partition_point(|length| *length < at);
-            let after = after.clamp(1, points.len() - 1);
-            let span = (lengths[after] - lengths[after - 1]).max(1e-300);
-            let share = (at - lengths[after - 1]) / span;
-            points[after - 1].lerp(&points[after], share)
-        })
-        .collect();
-    (resampled, total)
 }
 
 #[cfg(test)]

@@ -53,14 +53,6 @@ const FINE_GRID_COLS: usize = 25;
 /// Its row: `benches/page.md`, Models.
 const LINE_DETECTION_ROUNDS: usize = 2;
 
-/// Maximum number of Levenberg–Marquardt steps in one fit of a sheet to a photo.
-/// Chosen by `benches/page.md`, Beside other ways.
-const MAX_SHEET_FIT_STEPS: usize = 15;
-
-/// Relative decrease of the cost by one step below which the fit of a sheet has converged.
-/// Its row: `benches/page.md`, Constants of the outline.
-const COST_TOLERANCE: f64 = 0.01;
-
 /// Weights of the residuals in the fit of a sheet of smooth paper, which is firm against strain.
 /// Chosen by `benches/page.md`, Beside other ways.
 const FIRM_PAPER_WEIGHTS: SheetWeights = SheetWeights {
@@ -163,7 +155,7 @@ impl PageTraces {
                 ..weights
             },
         };
-        let limp = problem.solve(starts[0].clone(), MAX_SHEET_FIT_STEPS, COST_TOLERANCE)?;
+        let limp = problem.solve(starts[0].clone())?;
         problem.weights = weights;
         let coarse = problem.refined(limp, &COARSE_GRID_COLS)?;
         Some((problem, coarse, starts))
@@ -275,7 +267,7 @@ impl SheetProblem {
         for cols in grids {
             let rows = grid_rows(*cols, sheet.grid.ratio());
             sheet.grid = sheet.grid.resampled([*cols, rows]);
-            sheet = self.solve(sheet, MAX_SHEET_FIT_STEPS, COST_TOLERANCE)?;
+            sheet = self.solve(sheet)?;
         }
         Some(sheet)
     }

@@ -10,11 +10,11 @@ use super::search::{FoundSheet, PageTraces, find_sheet};
 use super::view::PhotoView;
 use crate::dewarp::Photo;
 use crate::error::{Error, Result};
+use crate::math::lanes;
 use crate::page::known_sizes::{focal_length, principal_point, sides};
 use crate::page::options::PageOptions;
-use crate::page::places::{back_project, texture_coordinates};
 use crate::page::report::{PageDoubt, PageModel, PageReport, PageVerdict};
-use crate::page::traced_line::TracedPage;
+use crate::page::traced_line::{EDGE_SEGMENTS, TracedPage};
 use crate::page::working_photo::PhotoScale;
 use crate::scene::camera::has_camera_proportions;
 
@@ -28,9 +28,6 @@ pub(in crate::page) struct SheetPage {
     pub lines: Vec<Vec<[f64; 2]>>,
     pub report: PageReport,
 }
-
-/// Number of segments to which each traced edge is resampled.
-const EDGE_SEGMENTS: usize = 160;
 
 /// Assumed focal length where it is not known, as a multiple of the photo's longer side: that of a phone, with a photo
 /// that is cropped slightly.
@@ -54,16 +51,13 @@ const CENTRE_DEVIATION: f64 = 0.12;
 /// Relative standard deviation of a page's height over width where the format is known.
 const FORMAT_RATIO_DEVIATION: f64 = 0.002;
 
-/// Root mean square distance between sheet and outline, in widths of the page, above which the edges cannot be those of
-/// a sheet (verdict `NotThisKind`).
-const MAX_OUTLINE_MISFIT: f64 = 0.02;
-
 /// Root mean square distance of edges and lines of print from those of a page that is curled in one direction, in widths of
 /// the page, above which it is folded or bent otherwise (verdict `NotThisKind`). Simulated pages that are traced 2 pixels of 12
 /// megapixels off have up to 0.0017, and from 0.0024 on where they are folded by 14°.
 const MAX_CYLINDER_MISFIT: f64 = 0.0021;
 
-/// Maximum expected error of the flat page for a verdict other than `Doubtful`, in % of the page's width.
+/// Maximum expected error of the flat page for a verdict other than `Doubtful`, and maximum root mean square distance of a sheet
+/// from the outline for one other than `NotThisKind`, in % of the page's width.
 /// Chosen by `benches/page.md`, Expected error.
 const MAX_TRUSTED_ERROR: f64 = 1.5;
 
@@ -158,12 +152,11 @@ impl SheetPage {
 
     /// Whether the page may be both pages of an open book: it is wider than high, and no line of print crosses its middle.
     fn may_be_spread(&self) -> bool {
-        let on_page = |pixel: [f64; 2]| back_project(|share| Some(self.table.at(share)), pixel);
         let crosses = |line: &Vec<[f64; 2]>| {
             let ([first, ..], [.., last]) = (&line[..], &line[..]) else {
                 return false;
             };
-            let ends = [*first, *last].map(on_page);
+            let ends = [*first, *last].map(|end| self.table.back_project(end));
             matches!(ends, [Some([left, _]), Some([right, _])] if left < 0.5 && right > 0.5)
         };
         self.ratio() < 1.0 && !self.lines.is_empty() && !self.lines.iter().any(crosses)
@@ -179,9 +172,9 @@ impl SheetPage {
         self.grid.ratio()
     }
 
-    /// Place in the photo, in pixels, at shares of the flat page's width and height.
-    pub fn place(&self, share: [f64; 2]) -> [f64; 2] {
-        self.table.at(share)
+    /// Places in the photo, in pixels, at the nodes of a grid over the flat page, bilinear in between.
+    pub fn table(&self) -> &PlaceTable {
+        &self.table
     }
 
     /// Returns this page as it is seen in the photo itself instead of its working photo.
@@ -205,7 +198,11 @@ impl SheetPage {
             .map(|node| [node.x, -node.y, -node.z].map(|v| v * width))
             .collect();
         let uvs = node_shares([cols, rows])
-            .map(|share| texture_coordinates(self.table.at(share), photo))
+            .map(|share| {
+                let [x, y] = self.table.at(share);
+                let [width, height] = photo.map(|n| n as f64);
+                [(x + 0.5) / width, 1.0 - (y + 0.5) / height].map(lanes::single)
+            })
             .collect();
         (positions, uvs, cols)
     }
@@ -234,7 +231,7 @@ fn report(
     let has_lines = found.count >= MIN_CHECKING_LINES;
     // How far a page that fills the photo reaches beyond it says how little is known, not that it is no such page.
     let contradiction = if is_seen { figures.outline } else { 0.0 };
-    let (verdict, doubt) = if contradiction > MAX_OUTLINE_MISFIT
+    let (verdict, doubt) = if 100.0 * contradiction > MAX_TRUSTED_ERROR
         || (is_cylinder && contradiction.hypot(figures.lines) > MAX_CYLINDER_MISFIT)
     {
         (PageVerdict::NotThisKind, None)

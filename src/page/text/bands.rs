@@ -38,11 +38,6 @@ const MAX_MISSING_STRIPS: usize = 2;
 /// Its row: `benches/page.md`, One rule at a time.
 const MIN_BAND_CONTRAST: f32 = 0.03;
 
-/// Maximum distance between a band of ink in the next vertical strip and its extrapolation there, as a multiple of half
-/// the searched x-height.
-/// Its row: `benches/page.md`, One rule at a time.
-const MAX_BAND_OFFSET: f64 = 1.0;
-
 impl StripProfiles {
     /// Computes the mean darkness of each row in each vertical strip of an ink image.
     pub fn new(ink: &InkImage) -> Self {
@@ -133,7 +128,8 @@ impl SmoothedProfiles {
                 let (last, row) = one.band[one.band.len() - 1];
                 let gone = (strip - last) as f64;
                 let ahead = row + one.slope * gone * step;
-                let reach = (MAX_BAND_OFFSET * sigma).max(1.0) * gone.sqrt();
+                // Up to half the x-height off in the next strip.
+                let reach = sigma * gone.sqrt();
                 let from = peaks.partition_point(|y| *y < ahead - reach);
                 for (j, y) in peaks.iter().enumerate().skip(from) {
                     if *y > ahead + reach {

@@ -8,7 +8,7 @@
 use super::balance::balanced_bound;
 use super::steps::Admm;
 use crate::error::Result;
-use crate::fit::linear::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolver};
+use crate::fit::linear::z_step_solver::{SolvableOperator, ZStepSolver};
 
 /// Maximum relative duality gap at which the affine least-squares surface may be the optimum; with a larger gap, the
 /// optimal surface bends.
@@ -17,18 +17,6 @@ pub(super) const MAX_AFFINE_GAP: f64 = 0.1;
 /// Screening length `(κ/2λ)^¼` (distance over which a stiffness `κ` smooths), in sizes of the domain, at which the
 /// surface counts as rigid: its bends are then a millionth of what they could be.
 const STIFF_SCREENING_LENGTH: f64 = 10.0;
-
-/// Residual of the linear system for the affine surface's dual at which conjugate gradients stop, relative to the first
-/// residual.
-const DUAL_TOLERANCE: f64 = 1e-4;
-
-/// Residual of the linear system for the affine surface's dual at which conjugate gradients stop where some vertices
-/// have hardly any fidelity weight, relative to the first: what is left of the residual costs the dual bound more
-/// there.
-const DUAL_TOLERANCE_WEAK_FIDELITY: f64 = 1e-9;
-
-/// Maximum number of conjugate-gradient iterations for the affine surface's dual.
-const MAX_DUAL_ITERATIONS: usize = 100;
 
 impl<O: SolvableOperator> Admm<O> {
     /// Computes the affine least-squares surface and a dual bound for it, and makes it the incumbent (best surface so
@@ -49,16 +37,8 @@ impl<O: SolvableOperator> Admm<O> {
             * self.problem.lambda
             * (STIFF_SCREENING_LENGTH * self.problem.operator.size()).powi(4);
         self.solver.set_rho(stiffness);
-        let tolerance = match self.problem.has_weak_fidelity {
-            true => DUAL_TOLERANCE_WEAK_FIDELITY,
-            false => DUAL_TOLERANCE,
-        };
-        let criteria = CgCriteria {
-            tolerance,
-            max_iterations: MAX_DUAL_ITERATIONS,
-        };
         let (iterate, problem) = (&mut self.iterate, &self.problem);
-        let balanced = balanced_bound(iterate, problem, &z, stiffness, &mut self.solver, criteria)?;
+        let balanced = balanced_bound(iterate, problem, &z, stiffness, &mut self.solver)?;
         self.solver.set_rho(self.iterate.rho);
         self.cg_iterations += balanced.iterations;
         let incumbent = &mut self.incumbent;

@@ -16,8 +16,8 @@ use crate::fit::operator::{Hessians, Matrices, Sums};
 use crate::lattice::bands::BandSlice;
 use crate::math::sym2::Sym2;
 
-/// Stopping criteria of the conjugate gradients that balance a dual during ADMM.
-pub(super) const BALANCE_CRITERIA: CgCriteria = CgCriteria {
+/// Stopping criteria of the conjugate gradients that balance a dual.
+const BALANCE_CRITERIA: CgCriteria = CgCriteria {
     tolerance: 1e-9,
     max_iterations: 100,
 };
@@ -40,12 +40,11 @@ pub(super) fn balanced_bound<O: SolvableOperator>(
     z: &[f64],
     stiffness: f64,
     solver: &mut O::Solver,
-    criteria: CgCriteria,
 ) -> Result<Balanced> {
     let zeros = || try_filled("certificate", problem.operator.vertex_cells(), 0.0);
     let (mut q, mut residual) = (zeros()?, zeros()?);
     iterate.balance(problem, z, &q, stiffness, &mut residual);
-    let iterations = solver.solve_precisely(problem, &mut residual, &mut q, criteria)?;
+    let iterations = solver.solve_precisely(problem, &mut residual, &mut q, BALANCE_CRITERIA)?;
     let bound = iterate.balance(problem, z, &q, stiffness, &mut residual);
     Ok(Balanced {
         bound,

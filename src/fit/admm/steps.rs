@@ -2,7 +2,7 @@
 
 use web_time::Instant;
 
-use super::balance::{BALANCE_CRITERIA, balanced_bound};
+use super::balance::balanced_bound;
 use super::certificate::Certificate;
 use super::divergence::DivergenceGuard;
 use super::incumbent::Incumbent;
@@ -139,14 +139,7 @@ impl<O: SolvableOperator> Admm<O> {
             self.balancing.restart(self.iteration);
             let (z, rho) = (self.iterate.z.clone(), self.iterate.rho);
             let (problem, solver) = (&self.problem, &mut self.solver);
-            let balanced = balanced_bound(
-                &mut self.iterate,
-                problem,
-                &z,
-                rho,
-                solver,
-                BALANCE_CRITERIA,
-            )?;
+            let balanced = balanced_bound(&mut self.iterate, problem, &z, rho, solver)?;
             self.cg_iterations += balanced.iterations;
             certificate.dual_bound = certificate.dual_bound.max(balanced.bound);
         }

@@ -673,11 +673,6 @@ export interface LambdaChoice {
    */
   ambiguous: boolean;
   /**
-   * Number of times that the lattice's spacing has to be doubled, by averages of four heights, until the noise is
-   * independent from vertex to vertex; 0 for white noise.
-   */
-  merged: number;
-  /**
    * Root mean square distance from the heights that the surface keeps within, in the input's units: the one that was
    * asked for, or a default where heights have no noise or `ambiguous` noise; `undefined` otherwise.
    */

@@ -168,9 +168,6 @@ pub struct LambdaChoice {
     /// Whether the noise of heights that no camera has measured is correlated and larger than 3.5 % of the height range, as the
     /// shape of a terrain looks too, so that noise and shape cannot be told apart: σ and λ are uncertain.
     pub ambiguous: bool,
-    /// Number of times that the lattice's spacing has to be doubled, by averages of four heights, until the noise is
-    /// independent from vertex to vertex; 0 for white noise.
-    pub merged: usize,
     /// Root mean square distance from the heights that the surface keeps within, in the input's units: the one that was
     /// asked for, or a default where heights have no noise or [`LambdaChoice::ambiguous`] noise; `None` otherwise.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]

@@ -1,6 +1,6 @@
 //! λ and the penalty that follow from the noise of the heights, without a solve.
 
-use super::noise::Noise;
+use super::noise::{MIN_NOISE_SHARE, Noise, height_range};
 use super::refinement::Aim;
 use crate::error::Result;
 use crate::fit::input::Input;
@@ -13,10 +13,6 @@ const LAMBDA_NOISE: f64 = 8.0;
 
 /// λ of an input that is free of noise.
 const WITHOUT_NOISE: Lambda = Lambda::Big;
-
-/// Minimum product `σ √A` of noise, as a share of the height range; what is less, smooth bends of a shape have, too
-/// (`benches/scenes.md`, One constant at a time).
-const MIN_NOISE_SHARE: f64 = 3e-4;
 
 /// Maximum standard deviation of smooth noise of heights that no camera has measured, as a share of the height range. What looks
 /// like larger noise may be the shape of a terrain, which is alike at every scale
@@ -42,12 +38,8 @@ impl InputStatistics {
     pub(crate) fn of(input: &Input, options: &Options) -> Result<Self> {
         let wanted = options.lambda_or_default() == Lambda::Auto
             || options.energy_or_default() == Energy::Huber;
-        let heights = input.field.heights().iter().filter(|z| z.is_finite());
-        let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| {
-            [low.min(*z), high.max(*z)]
-        });
         Ok(InputStatistics {
-            range: (high - low).max(0.0),
+            range: height_range(input),
             is_measured: input.is_measured,
             scale: options.normalization.factor(&input.field),
             noise: if wanted {
@@ -76,7 +68,6 @@ pub(crate) fn initial_options(
         step: noise.and_then(|noise| noise.step),
         correlation_length: noise.map_or(0.0, |noise| noise.correlation_length),
         ambiguous: false,
-        merged: noise.map_or(0, |noise| noise.merged),
         tolerance: None,
         residual_ratio: None,
         residual_exceeds_noise: false,

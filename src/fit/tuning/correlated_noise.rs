@@ -59,13 +59,17 @@ pub(super) struct CorrelatedNoise {
 
 impl CorrelatedNoise {
     /// Estimates the noise of heights from their curvatures at scales from small discs to large ones; `None` if a shape
-    /// hides it.
+    /// hides it. Noise as smooth as the longest length that is tried, or smoother, is a shape unless it `may_be_smoothest`.
     ///
     /// A shape beside the noise adds to the curvatures of large discs, and rougher noise beside smooth noise, as rounding is, to
     /// those of the smallest ones. So the covariance counts that explains the largest discs, with as many smaller ones as it can.
     /// Noise of scan lines bends across them at every scale, as a shape does, but not alike in discs side by side: there it is
     /// measured in the direction in which it bends most.
-    pub(super) fn from_scales(scales: &[CurvatureScale], discs: &[Disc]) -> Option<Self> {
+    pub(super) fn from_scales(
+        scales: &[CurvatureScale],
+        discs: &[Disc],
+        may_be_smoothest: bool,
+    ) -> Option<Self> {
         let mut scales = scales.to_vec();
         let is_anisotropic = scales.first().is_some_and(is_anisotropic);
         if is_anisotropic {
@@ -88,6 +92,7 @@ impl CorrelatedNoise {
                 .map(|first| (first, &scales[first..count]))
                 .filter(|(first, late)| *first == 0 || late.iter().all(bends_both_ways))
                 .map(|(_, late)| Covariance::fit(late, discs))
+                .filter(|covariance| may_be_smoothest || !covariance.is_smoothest)
                 .find(|covariance| covariance.misfit < MAX_MISFIT)
         })?;
         Some(CorrelatedNoise {
@@ -109,6 +114,8 @@ fn is_anisotropic(scale: &CurvatureScale) -> bool {
 struct Covariance {
     sigma: f64,
     length: f64,
+    /// Whether no length that is tried is longer.
+    is_smoothest: bool,
     /// Square root of the number of vertices that share one independent value of the noise, as far as the largest discs show it.
     shared_root: f64,
     /// Root mean square of the logarithms of the ratios of the measured noise to this one's.
@@ -142,6 +149,7 @@ impl Covariance {
         Covariance {
             sigma,
             length,
+            is_smoothest: length > longest / step.sqrt(),
             shared_root,
             misfit: (misfit / scales.len() as f64).sqrt(),
         }
@@ -179,12 +187,12 @@ mod tests {
     use super::*;
     use crate::fit::tuning::curvature_scales::DISC_RADII;
 
-    /// Discs that are much larger than the correlation length see white noise of the same spectrum, whose variance is the integral
-    /// of the correlations over the plane, `4πℓ²`, over the area of a cell; the response grows with the disc until then.
-    #[test]
-    fn large_discs_see_the_whole_noise() {
-        let discs: Vec<Disc> = DISC_RADII.iter().filter_map(|r| Disc::new(*r)).collect();
-        let scale = |lattice, disc| CurvatureScale {
+    fn discs() -> Vec<Disc> {
+        DISC_RADII.iter().filter_map(|r| Disc::new(*r)).collect()
+    }
+
+    fn scale(lattice: usize, disc: usize) -> CurvatureScale {
+        CurvatureScale {
             lattice,
             disc,
             count: 1000,
@@ -193,7 +201,28 @@ mod tests {
             coherence: 0.0,
             anisotropy: 1.0,
             likeness: 0.0,
+        }
+    }
+
+    #[test]
+    fn what_is_smoother_than_any_length_may_be_a_shape() {
+        let discs = discs();
+        let found = |length, may_be_smoothest| {
+            let scales = [0, 1].map(|disc| CurvatureScale {
+                white_equivalent: response(&scale(0, disc), &discs, length),
+                ..scale(0, disc)
+            });
+            CorrelatedNoise::from_scales(&scales, &discs, may_be_smoothest).is_some()
         };
+        assert!(found(1.5, true) && found(1.5, false));
+        assert!(found(6.0, true) && !found(6.0, false));
+    }
+
+    /// Discs that are much larger than the correlation length see white noise of the same spectrum, whose variance is the integral
+    /// of the correlations over the plane, `4πℓ²`, over the area of a cell; the response grows with the disc until then.
+    #[test]
+    fn large_discs_see_the_whole_noise() {
+        let discs = discs();
         for length in [1.0, 2.5] {
             let area = 0.75f64.sqrt();
             let whole = (4.0 * std::f64::consts::PI * length * length / area).sqrt();

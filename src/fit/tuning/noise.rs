@@ -17,6 +17,10 @@ pub(super) const MIN_NOISE_SAMPLES: usize = 50;
 /// correlated. Bends of the shape beside white noise raise it to 1.8 (`benches/scenes.md`, One constant at a time).
 const MIN_CORRELATED_RATIO: f64 = 2.5;
 
+/// Minimum product `σ √A` of noise, as a share of the height range; what is less, smooth bends of a shape have, too
+/// (`benches/scenes.md`, One constant at a time).
+pub(super) const MIN_NOISE_SHARE: f64 = 3e-4;
+
 /// Share of the standard deviation of independent pixels that is left between them, where heights are bilinear: the mean of
 /// the squared weights is 4/9.
 const BILINEAR_SIGMA: f64 = 2.0 / 3.0;
@@ -34,9 +38,6 @@ pub(crate) struct Noise {
     /// Correlation length, in the user's unit of length: the standard deviation of the Gaussian blur that makes such
     /// noise of white noise; 0 for noise that is independent from one pixel or vertex to the next.
     pub correlation_length: f64,
-    /// Number of coarsenings, each of four vertices to their mean, until the noise is independent from vertex to
-    /// vertex; 0 for white noise.
-    pub merged: usize,
     /// `σ √A h` times the largest confidence, in the user's unit squared, where `h` is the spacing. In normalised coordinates
     /// the best λ is about `8 / product`.
     pub product: f64,
@@ -77,11 +78,12 @@ impl Noise {
             vertex_sigma,
             white_equivalent: white,
             correlation_length: 0.0,
-            merged: 0,
             product: 0.0,
             step: step.filter(|_| is_rounding),
         };
-        if let Some(found) = correlated_noise(input)? {
+        // Beside rough noise, what is smoother than any that is tried is a shape, as of steps.
+        let is_rough = white > MIN_NOISE_SHARE * height_range(input) && !input.is_measured;
+        if let Some(found) = correlated_noise(input, !is_rough)? {
             let root = found.white_equivalent;
             if found.is_anisotropic || root >= MIN_CORRELATED_RATIO * white {
                 noise.sigma = found.sigma;
@@ -89,10 +91,6 @@ impl Noise {
                 noise.white_equivalent = root;
                 noise.correlation_length = found.length * spacing;
             }
-        }
-        if noise.vertex_sigma > 0.0 {
-            let shared_root = noise.white_equivalent / noise.vertex_sigma;
-            noise.merged = shared_root.log2().round().max(0.0) as usize;
         }
         noise.product = largest_trust(input) * noise.white_equivalent * spacing;
         Ok(Some(noise))
@@ -104,10 +102,20 @@ impl Noise {
 }
 
 /// Estimates correlated noise of an input; `None` if a shape hides it.
-fn correlated_noise(input: &Input) -> Result<Option<CorrelatedNoise>> {
+fn correlated_noise(input: &Input, may_be_smoothest: bool) -> Result<Option<CorrelatedNoise>> {
     let discs: Vec<Disc> = DISC_RADII.into_iter().filter_map(Disc::new).collect();
     let scales = curvature_scales(input, &discs)?;
-    Ok(CorrelatedNoise::from_scales(&scales, &discs))
+    let found = CorrelatedNoise::from_scales(&scales, &discs, may_be_smoothest);
+    Ok(found)
+}
+
+/// Difference between the highest and the lowest height of an input.
+pub(super) fn height_range(input: &Input) -> f64 {
+    let heights = input.field.heights().iter().filter(|z| z.is_finite());
+    let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| {
+        [low.min(*z), high.max(*z)]
+    });
+    (high - low).max(0.0)
 }
 
 /// Estimates the standard deviation of white noise from rings of six neighbours: the sum of a ring's heights with
@@ -179,7 +187,11 @@ mod tests {
                 (noise.sigma / sigma - 1.0).abs() < 0.06,
                 "{sigma}: {noise:?}"
             );
-            assert_eq!((noise.merged, noise.step), (0, None), "{sigma}");
+            assert_eq!(
+                (noise.correlation_length, noise.step),
+                (0.0, None),
+                "{sigma}"
+            );
             assert_eq!(noise.product, noise.sigma * 0.01);
         }
     }
@@ -357,7 +369,7 @@ mod tests {
             let field = Heightfield::new(lattice(), heights).unwrap();
             let noise = Noise::from_input(&field.into()).unwrap().unwrap();
             assert!(
-                noise.merged == 0 && noise.sigma < 1.1 * rough + 1e-5,
+                noise.correlation_length == 0.0 && noise.sigma < 1.1 * rough + 1e-5,
                 "{rough} {noise:?}"
             );
         }

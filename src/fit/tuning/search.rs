@@ -200,8 +200,8 @@ impl Search {
             return Ok(false);
         };
         let has_penalties = self.first.energy_or_default() == Energy::Huber;
-        // The noise of pixels is independent from vertex to vertex of a lattice that is coarser.
-        let is_independent = self.spacings.log2() >= noise.merged as f64;
+        // Noise of pixels is independent from vertex to vertex of a lattice coarser than the input's.
+        let is_independent = coarse.pixel_noise.is_none();
         let validation = match noise.is_correlated() {
             true => Validation::by_thinning(coarse, noise, self.spacings)?,
             false if has_penalties && is_independent => Validation::by_held_out_heights(coarse)?,

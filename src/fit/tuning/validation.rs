@@ -171,7 +171,6 @@ mod tests {
         vertex_sigma: 0.2,
         white_equivalent: 1.0,
         correlation_length: 1.5,
-        merged: 2,
         product: 1.0,
         step: None,
     };

@@ -49,10 +49,10 @@ pub struct Sheet {
     /// Outlines of the sheet: closed lines, the longest first, each divided into runs that begin where the run
     /// before ends. The sheet is to the left, so outlines of holes run clockwise.
     ///
-    /// Along a crease of a heightfield the outline is the line in which the continuations of both patches meet, smoothed over one or
-    /// two spacings. Both sides of a cut have the same length except for strain, and
-    /// [`Drawing`](crate::drawing::Drawing) draws them equally long. Along the border of a heightfield the outline
-    /// connects the midpoints of the lattice's border edges.
+    /// Along a crease of a heightfield the outline is the line in which the continuations of both patches meet, smoothed in space.
+    /// Both sides of a cut are equally long, as far as the limit of strain allows
+    /// ([`Totals::mismatch`](crate::drawing::Totals::mismatch)). Along the border of a heightfield the outline
+    /// is within half a spacing of the midpoints of the lattice's border edges.
     pub outlines: Vec<Vec<Run>>,
     /// Lines along which the sheet is folded, in the order of their creases' numbers.
     pub folds: Vec<Fold>,

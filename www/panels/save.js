@@ -1,5 +1,4 @@
 /** What a result of heights is saved as: a 3D file, sheets to cut out. */
-import { IMAGE_FILES } from '../../pkg/schema/image-files.js';
 import { percent, shortLambda } from '../format.js';
 import { MESH_FIT_WORDS } from '../messages.js';
 import { longerSide, cutSheets, lengthUnitOf } from '../pattern.js';
@@ -7,15 +6,15 @@ import { offerSurface } from '../solid.js';
 import { latticePositions } from '../surface/lattice.js';
 import { offerSheets } from './sheets.js';
 
-/** The formats of heights. */
-const imageFiles = /** @type {[import('../../pkg/schema/image-files.js').ImageFile, { type: string, about: string }][]} */ (Object.entries(IMAGE_FILES));
-
 /**
  * Offers the result as a file: images have the pixels of the input, meshes the vertices of the lattice.
  * @param {Api} api
  * @param {Result} result
  */
-export function offerFile(api, result) {
+export async function offerFile(api, result) {
+  // The page itself has to start where the package is missing, to say so.
+  const { IMAGE_FILES } = await import('../../pkg/schema/image-files.js');
+  const imageFiles = /** @type {[import('../../pkg/schema/image-files.js').ImageFile, { type: string, about: string }][]} */ (Object.entries(IMAGE_FILES));
   const { surface, image } = result;
   offerSurface(api, {
     stem: fileStem(result), surface, positions: latticePositions(surface), unit: result.input.unit, onBase: true,

@@ -9,7 +9,7 @@ use crate::math::planar::polygon_area;
 use crate::unroll::flat_triangle::Point;
 use crate::unroll::overlap::crossings;
 
-/// Smallest detail of an offset line that the curves fitted to it follow, in millimetres.
+/// Minimum offset, in millimetres, from which the maximum size of the loops that are cut off is measured.
 const OFFSET_DETAIL_MM: f64 = 1.0;
 
 /// Maximum distance of an offset corner from the corner itself, as a multiple of the offset.

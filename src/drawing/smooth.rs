@@ -19,7 +19,6 @@ pub(super) fn curve_through(line: &[[f64; 2]], tolerance: f64) -> Curve {
     // Points close to each other would say little about the directions at corners and ends.
     let mut points = simplify_polyline(&points, MAX_SIMPLIFICATION_SHARE * tolerance);
     points.dedup();
-    let mut curve = Curve::through(&line[..1]);
     let last = points.len() - 1;
     if last == 0 {
         return Curve::through(line);
@@ -36,12 +35,12 @@ pub(super) fn curve_through(line: &[[f64; 2]], tolerance: f64) -> Curve {
         points.rotate_left(first);
         points.push(points[0]);
         corners = corners.iter().map(|i| i - first).skip(1).collect();
-        curve = Curve::through(&[[points[0].re, points[0].im]]);
     }
     let ends: Vec<usize> = [0].into_iter().chain(corners).chain([last]).collect();
     // A closed line without a corner has one direction at its beginning and end.
     let around = (is_smooth_at_start && ends.len() == 2)
         .then(|| heading(points[last - 1], points[0], points[1]));
+    let mut curve = Curve::through(&[[points[0].re, points[0].im]]);
     for pair in ends.windows(2) {
         let section = &points[pair[0]..=pair[1]];
         let count = section.len();

@@ -422,7 +422,7 @@ export class SceneView {
     });
   }
 
-  /** What the size of the canvas depends on. */
+  /** Key of the canvas's size: width and height of its element, and pixels per CSS pixel. */
   #canvasSize(ratio = window.devicePixelRatio) {
     const { width, height } = this.#size;
     return [width, height, ratio].join();

@@ -66,6 +66,7 @@ export function headlinePanel(session, analyses, stage, heights) {
     main.setAttribute('aria-busy', 'false');
   });
   session.on('opening', (task) => {
+    page.toggleAttribute('data-opening', task !== null);
     if (session.input) return;
     if (task) say(`${TASK_WORDS[task]}…`, '');
     else say('Nothing to show yet.', 'Choose an example or open a file.');

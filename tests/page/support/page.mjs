@@ -170,7 +170,11 @@ export function sharedTest(name, body, { drawn = false, start = SMALL_EXAMPLE } 
       await page.evaluate(() => document.querySelectorAll('dialog').forEach((dialog) => dialog.close()));
       await page.goto(`${server.url}#`);
       await page.locator('#home').waitFor();
-      if (start) await page.goto(server.url + start);
+      if (start) {
+        await page.goto(server.url + start);
+        // The page has taken up the address.
+        await page.locator('#home').waitFor({ state: 'hidden' });
+      }
       await settled(page);
       await body(page);
       assert.deepEqual(incidents, []);
@@ -302,11 +306,11 @@ export async function ended(page, before) {
 }
 
 /**
- * Waits for the run under way, and for the start before the first one, to end.
+ * Waits for what is being opened, for the run under way, and for the start before the first one, to end.
  * @param {Page} page
  */
 export async function settled(page) {
-  await page.locator('#page[data-phase="idle"]').waitFor();
+  await page.locator('#page[data-phase="idle"]:not([data-opening])').waitFor();
   // The headline counts the pieces after the run.
   await page.locator('#verdict:not([aria-busy="true"])').waitFor({ state: 'attached' });
   await painted(page);

@@ -7,10 +7,10 @@ import { asDepthOptions } from './depth-input.js';
 import { copyOfFile } from './file-bytes.js';
 import { isBasic, isImage, isImagePhoto } from './formats.js';
 import { asBytes, asField, asHeights, asImage, asPixels, detached } from './input.js';
-import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
+import { asFiles, asMesh, asMeshOrLattice, asPicture, isMesh, wholeOf } from './mesh-input.js';
 import { optionsOf } from './options.js';
 import { asEdges, asFoundPage, edgesAndOptions, pageOptions, plainEdges } from './page-input.js';
-import { ofPlainCalls } from './plain-calls.js';
+import { asSurface, ofPlainCalls } from './plain-calls.js';
 import { fileOf as photoFileOf, photoOf } from './photo-source.js';
 import { asBook, placedOptions, printOptions } from './sheet-input.js';
 import { asText } from './values.js';
@@ -28,7 +28,7 @@ import { transfer } from './wire.js';
 
 /** @type {Record<import('./plain-calls.js').PlainCallName, Call>} */
 const plainCalls = ofPlainCalls((_, part, check) => ({
-  parts: [part],
+  parts: (taken) => [part(taken)],
   send(input, given) {
     const [taken, options] = check(input, given);
     return [taken?.kind ? handedOver(taken) : taken, options];
@@ -111,10 +111,14 @@ export const CALLS = {
     },
   },
   analyze: {
-    parts: ['unroll'],
+    parts: (input) => [isMesh(input) ? 'fitmesh' : 'unroll'],
     send(input, given) {
+      if (isMesh(input)) {
+        const options = optionsOf('analyzeMesh', given);
+        return [asSurface(input), options];
+      }
       const { reference, ...options } = /** @type {import('./types.js').AnalyzeOptions} */ (optionsOf('analyze', given));
-      const field = handedOver(asField(input));
+      const field = handedOver(asSurface(input));
       return [field, { ...options, reference: reference === undefined ? undefined : asField(reference) }];
     },
   },
@@ -126,11 +130,15 @@ export const CALLS = {
     },
   },
   fitCylinder: { parts: ['solver'], send: (input) => [handedOver(asHeights(input))] },
-  patternMesh: {
+  pattern: {
     parts: ({ textures }) => ['patterns', ...(textures ? forPictures(textures) : [])],
-    send(mesh, given) {
+    send(input, given) {
+      if (!isMesh(input)) {
+        const options = optionsOf('pattern', given);
+        return [handedOver(asSurface(input)), options];
+      }
       const options = /** @type {import('./types.js').MeshPatternOptions} */ (optionsOf('patternMesh', given));
-      const { shape, own: { uvs, textureOf, textures } } = wholeOf(mesh);
+      const { shape, own: { uvs, textureOf, textures } } = wholeOf(input);
       return [options.printed ? { ...shape, uvs, textureOf, textures } : shape, options];
     },
   },

@@ -7,7 +7,7 @@ import { DevelopableError, messageOf } from './errors.js';
 import { explored, exploredMesh } from './explore.js';
 import { copyOfFile, isBlob } from './file-bytes.js';
 import { asInput, asLattice, checkLengths } from './input.js';
-import { asPicture, wholeOf } from './mesh-input.js';
+import { asPicture, isMesh, wholeOf } from './mesh-input.js';
 import { OpenSolver } from './open.js';
 import { OPTIONS, optionsOf } from './options.js';
 import { makeDisposable } from './platform.js';
@@ -143,19 +143,12 @@ export class DevelopableWorker {
   }
 
   /**
-   * @param {HeightImage | Heightfield} input
-   * @param {import('./index.js').ExplorePatternOptions} [given]
+   * @param {any} input
+   * @param {any} [given]
    */
   explorePattern(input, given) {
-    return explored(/** @type {any} */ (this), (values) => this.#request((remote) => remote.trials(values)), input, given);
-  }
-
-  /**
-   * @param {import('./types.js').Mesh} mesh
-   * @param {import('./index.js').ExplorePatternMeshOptions} [given]
-   */
-  explorePatternMesh(mesh, given) {
-    return exploredMesh(/** @type {any} */ (this), (values) => this.#request((remote) => remote.trials(values)), mesh, given);
+    const explore = isMesh(input) ? exploredMesh : explored;
+    return explore(/** @type {any} */ (this), (values) => this.#request((remote) => remote.trials(values)), input, given);
   }
 
   get connected() {

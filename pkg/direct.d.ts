@@ -24,9 +24,9 @@ export function init(input?: InitInput): Promise<void>;
  *   mesh with textures;
  * - `images`: all other height images, and photos in WebP, GIF, BMP and TIFF;
  * - `meshes`: `readMesh`, `sampleMesh`, `backProject`, `writePly`, `writeStl`, `writeGlb`, and `paint` with a camera;
- * - `fitmesh`: `fitMesh`, `MeshSolver`, `analyzeMesh` and `meshRulings`;
- * - `unroll`: `analyze`, `patches`, `picture`, `draw`, `rulings`, `unroll` and `dewarp`;
- * - `patterns`: `pattern`, `patternMesh`, `recognizeMesh`, `unrollMesh`, `writeSvg`, `writePdf` and `writeDxf`.
+ * - `fitmesh`: `fitMesh`, `MeshSolver`, and of meshes `analyze` and `rulings`;
+ * - `unroll`: `picture`, `draw` and `dewarp`, and of heights `analyze`, `patches`, `rulings` and `unroll`;
+ * - `patterns`: `pattern`, `recognizeMesh`, `writeSvg`, `writePdf` and `writeDxf`, and of meshes `patches` and `unroll`.
  *
  * Where nothing can be awaited, `developable/sync` has `initSync` and `loadSync`.
  */

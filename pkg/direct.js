@@ -4,11 +4,11 @@ import { DevelopableError } from './errors.js';
 import { isBasic, isImage } from './formats.js';
 import { asBytes, asField, asHeights, asImage, asInput, asPixels, carriedOf } from './input.js';
 import { files, images, meshFits, meshes, partOf, patterns, solver, surfaces } from './instances.js';
-import { asFiles, asMesh, asMeshOrLattice, asPicture, wholeOf } from './mesh-input.js';
+import { asFiles, asMesh, asMeshOrLattice, asPicture, isMesh, wholeOf } from './mesh-input.js';
 import { optionsOf } from './options.js';
 import { asEdges, asFoundPage, edgesAndOptions, pageOptions } from './page-input.js';
 import { inColour, jpegsOf, paintOf, readPhoto } from './paint.js';
-import { ofPlainCalls } from './plain-calls.js';
+import { asSurface, ofPlainCalls } from './plain-calls.js';
 import { makeDisposable } from './platform.js';
 import { PROGRESS_INTERVAL, answerOf } from './progress.js';
 import { Steps } from './steps.js';
@@ -34,12 +34,11 @@ export async function load(...parts) {
 }
 
 export const {
-  writeObj, writeMtl, writePly, writeStl, patches, rulings, unroll, pattern, analyzeMesh, meshRulings, unrollMesh,
-  recognizeMesh, writeSvg, writePdf, writeDxf,
+  writeObj, writeMtl, writePly, writeStl, patches, rulings, unroll, recognizeMesh, writeSvg, writePdf, writeDxf,
 } = /** @type {Pick<typeof import('./direct.js'), import('./plain-calls.js').PlainCallName>} */ (ofPlainCalls((name, part, check) => {
   const call = (/** @type {any} */ input, /** @type {object | undefined} */ given) => {
     const [taken, { onProgress, ...options } = {}] = check(input, given);
-    return partOf(part).watched((wasm) => wasm[name](taken, options), onProgress);
+    return partOf(part(taken)).watched((wasm) => wasm[name](taken, options), onProgress);
   };
   return Object.defineProperty(call, 'name', { value: name });
 }));
@@ -235,10 +234,14 @@ export function backProject(input, intrinsics, known) {
   return { ...mesh, camera: own, ...(unit && { unit }) };
 }
 
-/** @type {typeof import('./direct.js').analyze} */
+/** @param {any} input @param {any} [given] @returns {any} */
 export function analyze(input, given) {
-  const field = asField(input);
-  const { reference, ...options } = optionsOf('analyze', given);
+  const field = asSurface(input);
+  if (isMesh(input)) {
+    const options = optionsOf('analyzeMesh', given);
+    return meshFits.call((wasm) => wasm.analyze(field, options));
+  }
+  const { reference, ...options } = /** @type {import('./types.js').AnalyzeOptions} */ (optionsOf('analyze', given));
   const other = reference === undefined ? undefined : asField(reference);
   return surfaces.call((wasm) => wasm.analyze(field, other, options));
 }
@@ -263,10 +266,15 @@ export function fitCylinder(input) {
   return { ...solver.call((wasm) => wasm.fitCylinder(field)), ...carriedOf(field) };
 }
 
-/** @type {typeof import('./direct.js').patternMesh} */
-export function patternMesh(mesh, given) {
-  const { shape, own: { uvs, textureOf, textures } } = wholeOf(mesh);
-  const { onProgress, ...options } = /** @type {NonNullable<typeof given>} */ (optionsOf('patternMesh', given));
+/** @type {typeof import('./direct.js').pattern} */
+export function pattern(/** @type {any} */ input, /** @type {any} */ given) {
+  if (!isMesh(input)) {
+    const { onProgress, ...options } = /** @type {import('./types.js').PatternOptions & { onProgress?: OnProgress }} */ (optionsOf('pattern', given));
+    const field = asSurface(input);
+    return patterns.watched((wasm) => wasm.pattern(field, options), onProgress);
+  }
+  const { shape, own: { uvs, textureOf, textures } } = wholeOf(input);
+  const { onProgress, ...options } = /** @type {import('./types.js').MeshPatternOptions & { onProgress?: OnProgress }} */ (optionsOf('patternMesh', given));
   const files = options.printed ? jpegsOf(textures) : undefined;
   const drawing = patterns.watched((wasm) => wasm.patternMesh(files ? { ...shape, uvs, textureOf } : shape, options), onProgress);
   return { ...drawing, ...(files && { textures: files }) };

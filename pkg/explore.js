@@ -9,7 +9,7 @@ import { optionsOf } from './options.js';
  * @typedef {import('./types.js').PatternPlan} PatternPlan
  * @typedef {import('./types.js').ExploredPatterns} ExploredPatterns
  * @typedef {import('./types.js').Mesh} Mesh
- * @typedef {Pick<import('./index.js').DevelopableWorker, 'open' | 'analyze' | 'pattern' | 'fitMesh' | 'patternMesh'>} Worker
+ * @typedef {Pick<import('./index.js').DevelopableWorker, 'open' | 'analyze' | 'pattern' | 'fitMesh'>} Worker
  * @typedef {typeof import('./service.js').service['trials']} Trials
  */
 
@@ -61,7 +61,7 @@ export async function exploredMesh(worker, trials, mesh, given) {
     const surface = lambda === own?.report.lambda ? own : await worker.fitMesh(mesh, { ...solver, lambda, signal });
     return { surface, distance: displacement(mesh, surface), seconds: surface.report.seconds.total };
   };
-  return tryPlans(all, choice, fitAt, (surface, smallest) => worker.patternMesh(surface, { ...pattern, smallest }));
+  return tryPlans(all, choice, fitAt, (surface, smallest) => worker.pattern(surface, { ...pattern, smallest }));
 }
 
 /**

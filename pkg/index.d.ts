@@ -5,7 +5,7 @@
 import type {
   CallProgress,
   Analysis, AnalyzeOptions, BookPage, Canvas, DecodedPhoto, DepthOptions, DetectedOcclusions, Dewarped, DewarpedPage, DewarpOptions,
-  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, FlatPage, FlattenPhotoOptions, Drawable, PageCorners, PageReport, PhotoSource, FoundPage, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions,
+  DewarpPageOptions, Drawing, Example, ExampleName, ExampleOptions, FittedCylinder, FlatPage, FlattenPhotoOptions, Drawable, PageCorners, PageReport, PhotoSource, FoundPage, Heightfield, HeightImage, ImageSurface, InitInput, Intrinsics, LatticeSurface, Mesh, MeshAnalysis, MeshAnalyzeOptions, MeshPatchMap, MeshPatchOptions,
   MeshPatternOptions, MeshRulingOptions, MeshRulings, MeshSolverOptions, MeshSurface, MeshUnrolling, MeshUnrollOptions, NpzArray, RecognizedMesh,
   ExploredPatterns, OcclusionOptions, PageEdges, PageOutlines, Painted, PaintOptions, PatchMap, PatchOptions, PatternOptions, PatternPlan, Photo, Picture,
   PictureOptions, Progress,
@@ -275,8 +275,15 @@ export function paint<F extends Heightfield>(input: F, picture: Picture | Blob, 
  * without a fit: give it what `fit` returned.
  */
 export function analyze(input: HeightImage | Heightfield, options?: AnalyzeOptions): Promise<Analysis>;
+/**
+ * Computes curvatures at the vertices of a mesh, with the direction in which it bends least, and statistics that say how developable the
+ * mesh is.
+ */
+export function analyze(mesh: Mesh, options?: MeshAnalyzeOptions): Promise<MeshAnalysis>;
 /** Segments a surface into smooth patches, and finds the creases between them. The surface is taken as it is, without a fit. */
 export function patches(input: HeightImage | Heightfield, options?: PatchOptions): Promise<PatchMap>;
+/** Segments the triangles of a mesh into smooth patches, and finds the creases between them, which run along edges. */
+export function patches(mesh: Mesh, options?: MeshPatchOptions): Promise<MeshPatchMap>;
 /**
  * Draws a surface, seen from above, to an image of RGBA bytes. Where pixels are larger than the lattice's spacing, the
  * surface is sampled.
@@ -290,6 +297,11 @@ export function draw(canvas: Canvas, input: HeightImage | Heightfield, options?:
  */
 export function rulings(input: HeightImage | Heightfield, options?: RulingOptions): Promise<RulingField>;
 /**
+ * Computes the rulings of a mesh: at each vertex the direction in which it does not bend, and straight lines along
+ * these directions.
+ */
+export function rulings(mesh: Mesh, options?: MeshRulingOptions): Promise<MeshRulings>;
+/**
  * Fits a cylinder with any profile to heights on a lattice: for curled sheets, pages of books and parallel folds, whose
  * rulings are all parallel. `report.verdict` says whether the surface is a cylinder. Heights count by their `confidence` and `mask`;
  * `constraints` and `occlusions` do not count.
@@ -297,25 +309,18 @@ export function rulings(input: HeightImage | Heightfield, options?: RulingOption
 export function fitCylinder(input: Heightfield): Promise<FittedCylinder>;
 /** Lays a surface flat without cuts, with as little strain as possible. */
 export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions & Watchable): Promise<Unrolling>;
+/** Lays a mesh flat: cuts it into sheets along its creases, and where it does not lie flat otherwise. */
+export function unroll(mesh: Mesh, options?: MeshUnrollOptions & Watchable): Promise<MeshUnrolling>;
 /**
  * Makes a pattern of a surface: cuts it along creases into sheets that lie flat, with as few cuts as possible, and
  * draws the sheets side by side in millimetres.
  */
 export function pattern(input: HeightImage | Heightfield, options?: PatternOptions & Watchable): Promise<Drawing>;
-/** Computes curvatures and rulings at the vertices of a mesh, and statistics that say how developable the mesh is. */
-export function analyzeMesh(mesh: Mesh, options?: MeshAnalyzeOptions): Promise<MeshAnalysis>;
 /**
- * Computes the rulings of a mesh: at each vertex the direction in which it does not bend, and straight lines along
- * these directions.
+ * Makes a pattern of a mesh: cuts it into sheets that lie flat, and draws them side by side in millimetres. A mesh of exact
+ * faces is taken as it is, without strain.
  */
-export function meshRulings(mesh: Mesh, options?: MeshRulingOptions): Promise<MeshRulings>;
-/** Lays a mesh flat: cuts it into sheets along its creases, and where it does not lie flat otherwise. */
-export function unrollMesh(mesh: Mesh, options?: MeshUnrollOptions & Watchable): Promise<MeshUnrolling>;
-/**
- * Makes a pattern of a mesh: cuts it into sheets that lie flat, and draws them side by side in millimetres, as
- * `pattern` does for heights.
- */
-export function patternMesh(mesh: Mesh, options?: MeshPatternOptions & Watchable): Promise<Drawing>;
+export function pattern(mesh: Mesh, options?: MeshPatternOptions & Watchable): Promise<Drawing>;
 /**
  * Says what `kind` a mesh is: of exact flat faces, of noisy flat faces, without noise (which a fit would not improve), or noisy. If
  * it is closed, exact and bent of sheet metal, the metal's `thickness` is returned as well.
@@ -328,10 +333,10 @@ export function recognizeMesh(mesh: Mesh): Promise<RecognizedMesh>;
  */
 export function explorePattern(input: HeightImage | Heightfield, options?: ExplorePatternOptions): Promise<ExploredPatterns>;
 /**
- * Makes patterns of a mesh at several λ and sizes of patches. Each λ takes one `fitMesh`, and each plan one
- * `patternMesh`; `distance` says how far vertices were moved.
+ * Fits a mesh at each of `lambdas` by `fitMesh`, and makes a cutting pattern of each fit at each of `smallest`. `distance` of a plan
+ * says how far vertices were moved.
  */
-export function explorePatternMesh(mesh: Mesh, options?: ExplorePatternMeshOptions): Promise<ExploredPatterns>;
+export function explorePattern(mesh: Mesh, options?: ExplorePatternMeshOptions): Promise<ExploredPatterns>;
 /** Writes a drawing to an SVG file in millimetres, with the layers `picture`, `cut`, `mountain`, `valley`, `tab` and `label`. */
 export function writeSvg(drawing: Drawing, options?: WriteSvgOptions): Promise<Uint8Array<ArrayBuffer>>;
 /**

@@ -24,7 +24,7 @@ export async function init(options) {
 }
 
 /** Calls that the worker has besides those of `CALLS`. */
-const OTHERS = /** @type {const} */ (['fit', 'open', 'fitMesh', 'paint', 'draw', 'explorePattern', 'explorePatternMesh']);
+const OTHERS = /** @type {const} */ (['fit', 'open', 'fitMesh', 'paint', 'draw', 'explorePattern']);
 
 /** The calls of the worker that all share. */
 const forwarded = Object.fromEntries([...Object.keys(CALLS), ...OTHERS].map((name) => {
@@ -37,8 +37,8 @@ const forwarded = Object.fromEntries([...Object.keys(CALLS), ...OTHERS].map((nam
 
 export const {
   fit, open, occlusions, read, formatOf, npzArrays, writeImage, writeObj, writeMtl, writePly, writeStl,
-  writeGlb, readMesh, sampleMesh, fitMesh, backProject, analyzeMesh, meshRulings, unrollMesh, patternMesh, recognizeMesh, paint, analyze,
-  patches, picture, draw, rulings, fitCylinder, unroll, pattern, explorePattern, explorePatternMesh, writeSvg, writePdf,
+  writeGlb, readMesh, sampleMesh, fitMesh, backProject, recognizeMesh, paint, analyze,
+  patches, picture, draw, rulings, fitCylinder, unroll, pattern, explorePattern, writeSvg, writePdf,
   writeDxf, dewarp, dewarpPage, flattenPhoto, findPage, readPhoto, writePhoto, writeBook, example,
 } = /** @type {typeof import('./index.js')} */ (/** @type {unknown} */ (forwarded));
 

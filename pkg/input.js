@@ -66,15 +66,16 @@ export function asInput(input) {
 /**
  * Heights, without what else may be known about them.
  * @param {HeightImage | Heightfield} input
+ * @param {string} [others] what else it may be, in words
  * @returns {Image | Lattice}
  */
-export function asField(input) {
+export function asField(input, others = '') {
   const { said } = read(input);
   if (said.heights !== undefined) return latticeHeights(said);
   if (said.data !== undefined) return imageHeights(said);
   throw new DevelopableError(
     'INPUT',
-    'there must be heights: an image ({ width, height, data }) or a lattice ({ rows, cols, spacing, heights })',
+    `there must be heights: an image ({ width, height, data }) or a lattice ({ rows, cols, spacing, heights })${others}`,
   );
 }
 

@@ -47,14 +47,18 @@ export function wholeOf(mesh) {
   return { shape: { positions, triangles, confidence, unit }, own: Object.fromEntries([...own, ...carried]) };
 }
 
+/** Whether an input is a mesh, and not heights. @param {unknown} input */
+export function isMesh(input) {
+  return reading('INPUT', 'the input', () => isRecord(input) && 'positions' in /** @type {object} */ (input));
+}
+
 /**
  * What can be written as a mesh: one, or heights on the lattice.
  * @param {unknown} input
  * @returns {any}
  */
 export function asMeshOrLattice(input) {
-  const isMesh = reading('INPUT', 'the input', () => isRecord(input) && 'positions' in /** @type {object} */ (input));
-  if (!isMesh) return asLattice(/** @type {import('./types.js').Heightfield} */ (input));
+  if (!isMesh(input)) return asLattice(/** @type {import('./types.js').Heightfield} */ (input));
   const { positions, triangles, colors, uvs, textures } = asMesh(/** @type {import('./types.js').Mesh} */ (input));
   return { positions, triangles, colors, uvs, textures };
 }

@@ -3,15 +3,18 @@
  * file, here or in the worker. A call of this kind is one row, from which both APIs are made.
  */
 import { asField } from './input.js';
-import { asMeshOrLattice, wholeOf } from './mesh-input.js';
+import { asMeshOrLattice, isMesh, wholeOf } from './mesh-input.js';
 import { OPTIONS, optionsOf } from './options.js';
 import { asText, plainCopy } from './values.js';
 
 /** @typedef {import('./direct.js').PartName} PartName */
-/** @typedef {readonly [part: PartName, take: (input: any) => any]} PlainCall the wasm file, and what checks and copies the input */
+/** @typedef {readonly [part: PartName, take: (input: any) => any]} Taken the wasm file, and what checks and copies the input */
+/** @typedef {Taken | { heights: PartName, mesh: PartName }} PlainCall a call of any surface has two wasm files */
 
 /** @param {import('./types.js').Mesh} mesh */
 const shapeOf = (mesh) => wholeOf(mesh).shape;
+/** A mesh, or heights, of a call of any surface. @param {any} input @returns {any} */
+export const asSurface = (input) => (isMesh(input) ? shapeOf(input) : asField(input, ', or a mesh ({ positions, triangles })'));
 /** @param {unknown} drawing */
 const asDrawing = (drawing) => plainCopy('the drawing', drawing);
 
@@ -21,13 +24,9 @@ export const PLAIN_CALLS = {
   writeMtl: ['files', (picture) => asText('INPUT', "the picture's name", picture)],
   writePly: ['meshes', asMeshOrLattice],
   writeStl: ['meshes', asMeshOrLattice],
-  patches: ['unroll', asField],
-  rulings: ['unroll', asField],
-  unroll: ['unroll', asField],
-  pattern: ['patterns', asField],
-  analyzeMesh: ['fitmesh', shapeOf],
-  meshRulings: ['fitmesh', shapeOf],
-  unrollMesh: ['patterns', shapeOf],
+  patches: { heights: 'unroll', mesh: 'patterns' },
+  rulings: { heights: 'unroll', mesh: 'fitmesh' },
+  unroll: { heights: 'unroll', mesh: 'patterns' },
   recognizeMesh: ['patterns', shapeOf],
   writeSvg: ['patterns', asDrawing],
   writePdf: ['patterns', asDrawing],
@@ -36,17 +35,29 @@ export const PLAIN_CALLS = {
 
 /** @typedef {keyof typeof PLAIN_CALLS} PlainCallName */
 
+/** The options of a call of any surface: those of meshes have a set of their own. @param {string} call @param {unknown} input */
+export const surfaceCall = (call, input) => /** @type {'unroll' | 'unrollMesh'} */ (isMesh(input) ? `${call}Mesh` : call);
+
 /**
  * Makes something of each of these calls.
  * @template T
- * @param {(name: PlainCallName, part: PartName, check: (input: any, given?: object) => [taken: any, options: any]) => T} make `check`: returns
- *   checked copies of the input and of the options, none for a call without options
+ * @param {(name: PlainCallName, part: (input: any) => PartName, check: (input: any, given?: object) => [taken: any, options: any]) => T} make
+ *   `check`: returns checked copies of the input and of the options, none for a call without options
  * @returns {Record<PlainCallName, T>}
  */
 export function ofPlainCalls(make) {
   const rows = /** @type {[PlainCallName, PlainCall][]} */ (/** @type {unknown} */ (Object.entries(PLAIN_CALLS)));
-  return /** @type {Record<PlainCallName, T>} */ (Object.fromEntries(rows.map(([name, [part, take]]) => [name, make(name, part, (input, given) => {
-    const options = Object.hasOwn(OPTIONS, name) ? optionsOf(/** @type {'unroll'} */ (name), given) : undefined;
-    return [take(input), options];
-  })])));
+  return /** @type {Record<PlainCallName, T>} */ (Object.fromEntries(rows.map(([name, call]) => {
+    if ('mesh' in call) {
+      return [name, make(name, (input) => call[isMesh(input) ? 'mesh' : 'heights'], (input, given) => {
+        const options = optionsOf(surfaceCall(name, input), given);
+        return [asSurface(input), options];
+      })];
+    }
+    const [part, take] = call;
+    return [name, make(name, () => part, (input, given) => {
+      const options = Object.hasOwn(OPTIONS, name) ? optionsOf(/** @type {'unroll'} */ (name), given) : undefined;
+      return [take(input), options];
+    })];
+  })));
 }

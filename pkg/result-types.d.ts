@@ -755,8 +755,8 @@ export interface MeshAnalysis {
   /** Density of the energy at each vertex, `|kappa1| + |kappa2|`. */
   nuclearNorm: Float64Array<ArrayBuffer>;
   /**
-   * Unit vector x, y, z at each vertex along which the mesh bends by `kappa2`, up to its sign; `meshRulings` gives
-   * smoothed directions.
+   * Unit vector x, y, z at each vertex along which the mesh bends by `kappa2`, up to its sign; `rulings` gives smoothed
+   * directions.
    */
   rulings: Float64Array<ArrayBuffer>;
   /**
@@ -802,6 +802,20 @@ export interface MeshPass {
   moved: number;
   /** Largest distance by which a vertex moved from the base of the linearisation, in the input's unit of length. */
   movedMost: number;
+}
+
+/**
+ * Patches of a mesh (regions without a crease inside), that with the largest area first, and the creases between them.
+ */
+export interface MeshPatchMap {
+  /** Number of the patch of each triangle of the mesh, −1 for none. */
+  labels: Int32Array<ArrayBuffer>;
+  /** The patches, in the order of their numbers. */
+  patches: Patch[];
+  /** The creases between the patches. */
+  creases: Crease[];
+  /** Angle between neighbouring triangles, in radians, above which an edge counted as part of a crease. */
+  bend: number;
 }
 
 /** Repairs of a mesh before its fit. The fitted mesh has the vertices and triangles of the input all the same. */

@@ -88,17 +88,17 @@ export class MeshFit extends Events {
 
   /** @param {Mesh} mesh */
   curvatures(mesh) {
-    return this.#tasks.answer(mesh, 'curvatures', (worker) => worker.analyzeMesh(geometryOf(mesh)));
+    return this.#tasks.answer(mesh, 'curvatures', (worker) => worker.analyze(geometryOf(mesh)));
   }
 
   /** @param {Mesh} mesh */
   rulings(mesh) {
-    return this.#tasks.answer(mesh, 'rulings', (worker) => worker.meshRulings(geometryOf(mesh), { separation: Math.max(...sidesOf(mesh.positions)) / RULINGS_PER_LONGEST_SIDE }));
+    return this.#tasks.answer(mesh, 'rulings', (worker) => worker.rulings(geometryOf(mesh), { separation: Math.max(...sidesOf(mesh.positions)) / RULINGS_PER_LONGEST_SIDE }));
   }
 
   /** @param {Mesh} mesh @param {Tell} tell */
   unrolled(mesh, tell) {
-    return this.#tasks.answer(mesh, 'unrolled', (worker) => worker.unrollMesh(geometryOf(mesh), { onProgress: ({ fraction }) => tell({ fraction, task: 'unrolling' }) }));
+    return this.#tasks.answer(mesh, 'unrolled', (worker) => worker.unroll(geometryOf(mesh), { onProgress: ({ fraction }) => tell({ fraction, task: 'unrolling' }) }));
   }
 
   /** Tells what kind of mesh it is, and how thick a solid of sheet metal. @param {Mesh} mesh */
@@ -124,7 +124,7 @@ export class MeshFit extends Events {
     // Card shows what the model looks like.
     const printed = kind === 'faces' && laidFlat.textures !== undefined && options.thickness === undefined;
     return this.#tasks.answer(laidFlat, `pattern ${JSON.stringify(options)}`, (worker) =>
-      worker.patternMesh(printed ? laidFlat : geometryOf(laidFlat), { ...own, ...smooth, printed, onProgress: tell }));
+      worker.pattern(printed ? laidFlat : geometryOf(laidFlat), { ...own, ...smooth, printed, onProgress: tell }));
   }
 }
 

@@ -4,7 +4,7 @@ import { solver, threading } from '../schema/fit.js';
 import { IMAGE_FILES } from '../schema/image-files.js';
 import { drawing } from '../schema/pattern.js';
 import { dewarp, dewarpPage } from '../schema/photo.js';
-import { meshPatches, rulings } from '../schema/shape.js';
+import { patchesMesh, rulings } from '../schema/shape.js';
 import { flagNames } from './flags.js';
 
 /**
@@ -121,7 +121,7 @@ export const commands = {
         '.npy: the patch of each vertex on the lattice, from 0, -1 for none; .obj, .ply or .glb: the surface with a ' +
         'colour for each patch',
     },
-    flags: [...shaped, 'report', ...flagNames(meshPatches)],
+    flags: [...shaped, 'report', ...flagNames(patchesMesh)],
     examples: ['patches roof.png -o patches.json', 'patches roof.png -o patches.ply --report patches.json'],
   },
   rulings: {
@@ -154,7 +154,7 @@ export const commands = {
     about: 'Fits a surface and cuts it along its creases into sheets to be made of paper or metal.',
     input: INPUT,
     writes: ['.svg', '.pdf', '.dxf', '.json'],
-    flags: [...shaped, 'surface', 'report', ...flagNames(meshPatches), ...flagNames(drawing), 'size', 'cut', 'join', 'blank', 'printed', 'explore', 'sheets'],
+    flags: [...shaped, 'surface', 'report', ...flagNames(patchesMesh), ...flagNames(drawing), 'size', 'cut', 'join', 'blank', 'printed', 'explore', 'sheets'],
     words: { output: '.svg, .pdf or .dxf in true size, or .json', report: 'JSON file for the figures of the pattern' },
     examples: ['pattern roof.png -o roof.pdf --scale 2 --tabs 8 --stock a4', 'pattern scan.png --explore', 'pattern scan.png -o scan.svg --sheets 8', 'pattern scan.ply -o sheets.pdf --surface'],
   },

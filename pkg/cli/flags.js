@@ -6,7 +6,7 @@ import { occlusions, solver, threading } from '../schema/fit.js';
 import { choice, flag, number, text } from '../schema/kinds.js';
 import { drawing, model } from '../schema/pattern.js';
 import { dewarp, dewarpPage, writePhoto } from '../schema/photo.js';
-import { meshPatches, rulings } from '../schema/shape.js';
+import { patchesMesh, rulings } from '../schema/shape.js';
 import { Problem, status } from './problem.js';
 
 /**
@@ -268,7 +268,7 @@ export const sections = {
     title: 'What is made of the surface',
     flags: {
       'as-is': { help: 'take the heights as they are, without a fit' },
-      ...flagsFor(meshPatches),
+      ...flagsFor(patchesMesh),
       ...flagsFor(rulings),
       ...flagsFor(drawing),
       ...flagsFor(model),

@@ -1,7 +1,7 @@
 /** `--surface`: a mesh as it is, without a view, fitted and what is made of it. */
 import * as developable from '../index.js';
 import { meshSolver } from '../schema/fit.js';
-import { meshRulings } from '../schema/shape.js';
+import { rulingsMesh } from '../schema/shape.js';
 import { drawingOptions, patternFiles, reportPattern } from './drawing.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { writeMesh } from './fit.js';
@@ -71,20 +71,20 @@ const made = {
   },
 
   async analyze({ output, asIs, threshold }, surface, mesh) {
-    const figures = { input: (await developable.analyzeMesh(mesh, { threshold })).summary };
-    const after = asIs ? {} : { output: (await developable.analyzeMesh(surface, { threshold })).summary };
+    const figures = { input: (await developable.analyze(mesh, { threshold })).summary };
+    const after = asIs ? {} : { output: (await developable.analyze(surface, { threshold })).summary };
     return [{ path: output, bytes: json({ ...figures, ...after }) }];
   },
 
   async rulings(task, surface) {
     const { output, extension } = task;
-    const { lines } = await developable.meshRulings(surface, optionsFrom(meshRulings, task));
+    const { lines } = await developable.rulings(surface, optionsFrom(rulingsMesh, task));
     const bytes = extension === '.obj' ? linesObj(lines) : json({ lines });
     return [{ path: output, bytes }, ...reportFile(task, { lines })];
   },
 
   async unroll(task, surface) {
-    const sheets = await during('laying it flat', (watched) => developable.unrollMesh(surface, watched));
+    const sheets = await during('laying it flat', (watched) => developable.unroll(surface, watched));
     const { patches, creases, report } = sheets;
     const bytes = task.extension === '.obj' ? flatObj(sheets) : json(plainArrays(sheets));
     return [{ path: task.output, bytes }, ...reportFile(task, { ...report, patches, creases })];
@@ -92,7 +92,7 @@ const made = {
 
   async pattern(task, surface, _mesh, exact) {
     const pattern = await during('cutting it into sheets', (watched) =>
-      developable.patternMesh(surface, { ...drawingOptions(task), exact: exact ? undefined : false, ...watched }));
+      developable.pattern(surface, { ...drawingOptions(task), exact: exact ? undefined : false, ...watched }));
     reportPattern(task, pattern);
     return patternFiles(task, pattern);
   },
@@ -108,7 +108,7 @@ async function planned(task, mesh, signal) {
   const { lambda, ...solver } = optionsFrom(meshSolver, task);
   const { smallest, ...pattern } = drawingOptions(task);
   const { sheets } = task;
-  const found = await withPlans((onPlan) => developable.explorePatternMesh(mesh, { solver, pattern, sheets, signal, onPlan }));
+  const found = await withPlans((onPlan) => developable.explorePattern(mesh, { solver, pattern, sheets, signal, onPlan }));
   if (task.explore) return tellPlans(task, found.plans, signal);
   const { drawing, plan } = chosenOf(task, found);
   await writeWhole(await patternFiles(task, drawing, plan), signal);

@@ -1,6 +1,6 @@
 /** `developable analyze`, `developable patches` and `developable rulings`: what a surface is like. */
 import * as developable from '../index.js';
-import { meshPatches, rulings as tracing } from '../schema/shape.js';
+import { patchesMesh, rulings as tracing } from '../schema/shape.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { solve } from './fit.js';
 import { flattened, spacing } from './flattened.js';
@@ -42,7 +42,7 @@ export async function analyze(task, signal) {
 export async function patches(task, signal) {
   await checkPlaces(...task.written);
   const { surface, options } = await flattened(task, signal);
-  const { labels, ...map } = await developable.patches(surface, { ...options, ...optionsFrom(meshPatches, task) });
+  const { labels, ...map } = await developable.patches(surface, { ...options, ...optionsFrom(patchesMesh, task) });
   await tell(task, map, await drawn(), `${map.patches.length} patches, ${map.creases.length} creases`, signal);
 
   async function drawn() {

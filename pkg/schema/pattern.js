@@ -1,6 +1,6 @@
 /** Options of patterns and their drawings. Each comment is what the types say; the default is added there. */
 import { choice, either, flag, number, numbers, patchPairs, positive, text } from './kinds.js';
-import { meshPatches, meshUnrolling, unroll } from './shape.js';
+import { meshUnrolling, patchesMesh, unroll } from './shape.js';
 
 /** @typedef {import('./kinds.js').Options} Options */
 
@@ -133,7 +133,7 @@ export const drawing = {
 
 /** Options of a pattern of a surface. @satisfies {Options} */
 export const pattern = {
-  ...meshPatches,
+  ...patchesMesh,
   ...unroll,
   ...drawing,
   /**
@@ -145,7 +145,7 @@ export const pattern = {
 
 /** Options of laying a mesh flat. `bend` is the angle between triangles, by default at most 0.35. @satisfies {Options} */
 export const unrollMesh = {
-  ...meshPatches,
+  ...patchesMesh,
   ...meshUnrolling,
   ...limits,
 };

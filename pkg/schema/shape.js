@@ -22,8 +22,8 @@ export const analyzeMesh = {
   threshold: { kind: number, default: 1 },
 };
 
-/** Options of the segmentation of a mesh into patches. @satisfies {Options} */
-export const meshPatches = {
+/** Options of the segmentation of a mesh into patches. `bend` is the angle between triangles, by default at most 0.35. @satisfies {Options} */
+export const patchesMesh = {
   /**
    * Angle, in radians, by which the surface bends from one vertex to the next on a crease. Default:
    * six times its median, and at least 0.035.
@@ -52,10 +52,10 @@ export const meshPatches = {
 };
 
 /** Options of the segmentation of a surface into patches. @satisfies {Options} */
-export const patches = { ...meshPatches, ...resampling };
+export const patches = { ...patchesMesh, ...resampling };
 
 /** Options of traced rulings of a mesh. @satisfies {Options} */
-export const meshRulings = {
+export const rulingsMesh = {
   /**
    * Distance from other lines at which a line begins, in three dimensions and in the surface's unit of length; along their courses two
    * lines may come as near as half of it. Default: ten times the mean length of an edge.
@@ -95,7 +95,7 @@ export const meshRulings = {
 };
 
 /** Options of traced rulings. @satisfies {Options} */
-export const rulings = { ...meshRulings, ...resampling };
+export const rulings = { ...rulingsMesh, ...resampling };
 
 /** Options of laying a mesh flat. @satisfies {Options} */
 export const meshUnrolling = {

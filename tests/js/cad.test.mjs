@@ -44,7 +44,7 @@ test('faces, walls and holes of extruded parts have their areas, and no strain',
   for (const [geometry, area] of parts) {
     const mesh = meshOf(geometry);
     assert.equal(direct.recognizeMesh(mesh).kind, 'faces');
-    const { summary } = direct.patternMesh(mesh, { scale: 1 });
+    const { summary } = direct.pattern(mesh, { scale: 1 });
     near(summary.area, area);
     assert.equal(summary.strain, 0);
   }
@@ -68,7 +68,7 @@ test('a channel is bent from the blank that its bends allow', () => {
   section.lineTo(thickness, height);
   const mesh = meshOf(new ExtrudeGeometry(section, { depth: length, bevelEnabled: false, curveSegments: 12 }));
   near(/** @type {number} */ (direct.recognizeMesh(mesh).thickness), thickness);
-  const { summary, sheets } = direct.patternMesh(mesh, { scale: 1, blank: true, kFactor: 0.44 });
+  const { summary, sheets } = direct.pattern(mesh, { scale: 1, blank: true, kFactor: 0.44 });
   const allowance = (Math.PI / 2) * (inner + 0.44 * thickness);
   near(summary.area, length * (2 * (height - outer) + width - 2 * outer + 2 * allowance), 1e-5);
   assert.deepEqual(sheets.flatMap(({ folds }) => folds.map((fold) => Math.round(fold.angle))), [90, 90]);

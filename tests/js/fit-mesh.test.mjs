@@ -185,7 +185,7 @@ const [pipe, cone] = [4 * Math.PI, 1.5 * Math.PI * Math.hypot(1, 0.5)];
 test('a whole mesh is measured, laid flat and drawn', async () => {
   await direct.load('patterns');
   const surface = await developable.fitMesh(noisy);
-  const [before, after] = await Promise.all([noisy, surface].map((mesh) => developable.analyzeMesh(mesh)));
+  const [before, after] = await Promise.all([noisy, surface].map((mesh) => developable.analyze(mesh)));
   assert.ok(after.summary.gaussianAbove < 0.25 * before.summary.gaussianAbove, JSON.stringify(after.summary));
   assert.ok(Math.abs(after.summary.size - 2 * Math.hypot(1, 1.35)) < 0.2, `${after.summary.size}`);
   const count = noisy.positions.length / 3;
@@ -193,19 +193,22 @@ test('a whole mesh is measured, laid flat and drawn', async () => {
   const median = (/** @type {number[]} */ values) => values.sort((a, b) => a - b)[values.length >> 1];
   assert.ok(Math.abs(median(round.map((i) => after.kappa1[i])) - 1) < 0.05);
   assert.ok(median(round.map((i) => Math.abs(after.rulings[3 * i + 2]))) > 0.99);
-  const sheets = await developable.unrollMesh(surface);
+  const sheets = await developable.unroll(surface);
   assert.equal(sheets.labels.length, noisy.triangles.length / 3);
   assert.equal(sheets.patches.length, 2);
   [pipe, cone].forEach((area, k) => assert.ok(Math.abs(sheets.patches[k].area / area - 1) < 0.03, `${sheets.patches[k].area} for ${area}`));
+  const { labels, patches, creases } = await developable.patches(surface);
+  assert.deepEqual({ labels, patches, creases }, { labels: sheets.labels, patches: sheets.patches, creases: sheets.creases });
+  assert.equal(direct.patches(surface, { fold: 3 }).patches.length, 1);
   assert.equal(sheets.places.length / 2, sheets.positions.length / 3);
   assert.ok(sheets.report.strain <= 0.01 && Math.abs(sheets.report.area / (pipe + cone) - 1) < 0.03);
-  const drawing = await developable.patternMesh(surface, { scale: 10, tabs: 4, assembly: true });
+  const drawing = await developable.pattern(surface, { scale: 10, tabs: 4, assembly: true });
   assert.equal(drawing.sheets.length, sheets.report.sheets);
   assert.equal(drawing.assembly?.steps.length, drawing.sheets.length);
   assert.match(new TextDecoder().decode(direct.writeSvg(drawing)), /<svg/);
-  assert.deepEqual(direct.patternMesh(surface, { scale: 10, tabs: 4, assembly: true }).sheets, drawing.sheets);
-  assert.throws(() => direct.unrollMesh(surface, /** @type {any} */ ({ spacing: 1 })), error('OPTION', /spacing/));
-  const leaves = direct.patternMesh(branched, { exact: false, scale: 10 });
+  assert.deepEqual(direct.pattern(surface, { scale: 10, tabs: 4, assembly: true }).sheets, drawing.sheets);
+  assert.throws(() => direct.unroll(surface, /** @type {any} */ ({ spacing: 1 })), error('OPTION', /spacing/));
+  const leaves = direct.pattern(branched, { exact: false, scale: 10 });
   assert.equal(leaves.sheets.length, 3);
   assert.ok(Math.abs(leaves.summary.area - 100 * (0.5 + Math.SQRT2)) < 1e-6);
 });
@@ -214,7 +217,7 @@ test('patterns of a whole mesh at several λ', async () => {
   const smallest = [0.02];
   /** @type {import('../../pkg/types.js').PatternPlan[]} */
   const told = [];
-  const { plans, chosen } = await developable.explorePatternMesh(noisy, { smallest, pattern: { scale: 10 }, onPlan: (plan) => told.push(plan) });
+  const { plans, chosen } = await developable.explorePattern(noisy, { smallest, pattern: { scale: 10 }, onPlan: (plan) => told.push(plan) });
   assert.equal(chosen, undefined);
   assert.deepEqual(told, plans);
   const { report, positions } = await developable.fitMesh(noisy);
@@ -229,14 +232,14 @@ test('patterns of a whole mesh at several λ', async () => {
     assert.ok(Math.abs(drawing.summary.area / (100 * (pipe + cone)) - 1) < 0.05, `${drawing.summary.area}`);
   }
   const sheets = plans[0].drawing?.sheets.length;
-  const few = await developable.explorePatternMesh(noisy, { lambdas: [1e3, report.lambda], smallest, sheets });
+  const few = await developable.explorePattern(noisy, { lambdas: [1e3, report.lambda], smallest, sheets });
   assert.equal(few.plans.length, 1);
   assert.equal(few.chosen, few.plans[0]);
   assert.equal(few.plans[0].lambda, report.lambda);
-  await assert.rejects(developable.explorePatternMesh(noisy, /** @type {any} */ ({ lambdas: 3 })), error('OPTION', /lambdas/));
-  await assert.rejects(developable.explorePatternMesh(noisy, /** @type {any} */ ({ solver: { spacing: 1 } })), error('OPTION', /spacing/));
-  await assert.rejects(developable.explorePatternMesh(branched, { lambdas: [1e6] }), error('TOPOLOGY', /inside/));
-  await assert.rejects(developable.explorePatternMesh(noisy, { signal: AbortSignal.abort() }), { name: 'AbortError' });
+  await assert.rejects(developable.explorePattern(noisy, /** @type {any} */ ({ lambdas: 3 })), error('OPTION', /lambdas/));
+  await assert.rejects(developable.explorePattern(noisy, /** @type {any} */ ({ solver: { spacing: 1 } })), error('OPTION', /spacing/));
+  await assert.rejects(developable.explorePattern(branched, { lambdas: [1e6] }), error('TOPOLOGY', /inside/));
+  await assert.rejects(developable.explorePattern(noisy, { signal: AbortSignal.abort() }), { name: 'AbortError' });
 });
 
 /** How far a line through two points passes by a third. @param {number[]} a @param {number[]} b @param {number[]} c */
@@ -266,8 +269,8 @@ function offRulings(lines) {
 test('rulings of a pipe are parallel to its axis, those of a cone meet at its apex', async () => {
   await direct.load('fitmesh');
   const exact = bottle(60, 0);
-  const found = direct.meshRulings(exact, { separation: 0.4 });
-  assert.deepEqual(await developable.meshRulings(exact, { separation: 0.4 }), found);
+  const found = direct.rulings(exact, { separation: 0.4 });
+  assert.deepEqual(await developable.rulings(exact, { separation: 0.4 }), found);
   const { directions, confidence, lines } = found;
   assert.deepEqual([directions.length, confidence.length], [exact.positions.length, exact.positions.length / 3]);
   let known = 0;
@@ -287,14 +290,14 @@ test('rulings of a pipe are parallel to its axis, those of a cone meet at its ap
   for (const { points, length, deviation } of lines) {
     assert.ok(deviation < 0.02 && Math.abs(Math.hypot(...points[0].map((x, k) => x - points[points.length - 1][k])) - length) < 1e-12);
   }
-  assert.ok(direct.meshRulings(exact, { separation: 0.8 }).lines.length < lines.length);
-  assert.equal(direct.meshRulings(exact, { confidence: 1 }).lines.length, 0);
+  assert.ok(direct.rulings(exact, { separation: 0.8 }).lines.length < lines.length);
+  assert.equal(direct.rulings(exact, { confidence: 1 }).lines.length, 0);
   // It bends by a sixtieth of a turn from vertex to vertex.
-  assert.equal(direct.meshRulings(exact, { crease: 0.05 }).lines.length, 0);
-  assert.throws(() => direct.meshRulings(exact, { separation: -1 }), error('OPTION', /separation/));
-  assert.throws(() => direct.meshRulings(exact, /** @type {any} */ ({ spacing: 1 })), error('OPTION', /spacing/));
-  assert.equal((await developable.meshRulings(branched)).lines.length, 0);
-  await assert.rejects(developable.meshRulings({ positions: exact.positions, triangles: new Uint32Array() }), error('UNSUPPORTED', /no triangles/));
+  assert.equal(direct.rulings(exact, { crease: 0.05 }).lines.length, 0);
+  assert.throws(() => direct.rulings(exact, { separation: -1 }), error('OPTION', /separation/));
+  assert.throws(() => direct.rulings(exact, /** @type {any} */ ({ spacing: 1 })), error('OPTION', /spacing/));
+  assert.equal((await developable.rulings(branched)).lines.length, 0);
+  await assert.rejects(developable.rulings({ positions: exact.positions, triangles: new Uint32Array() }), error('UNSUPPORTED', /no triangles/));
 });
 
 test('the command traces rulings of whole meshes', async () => {
@@ -437,7 +440,7 @@ test('what is fitted before it is laid flat is said, with the noise that was fou
 test('a box is laid flat as it is, at the size that is asked for', async () => {
   const box = boxTo([30, 20, 10]);
   assert.deepEqual(await developable.recognizeMesh(box), { kind: 'faces' });
-  const { summary, sheets } = await developable.patternMesh(box, { size: 60, tabs: 5 });
+  const { summary, sheets } = await developable.pattern(box, { size: 60, tabs: 5 });
   // Twice as large; the shortest cut leaves the five longest edges that make a tree: four of 30 are not all of them.
   assert.equal(summary.sheets, 1);
   assert.equal(summary.folds, 5);
@@ -445,7 +448,7 @@ test('a box is laid flat as it is, at the size that is asked for', async () => {
   assert.ok(Math.abs(summary.area - 4 * 2 * (600 + 300 + 200)) < 1e-6, String(summary.area));
   assert.equal(summary.untabbed, 0);
   assert.equal(sheets[0].folds.every(({ angle }) => Math.abs(angle - 90) < 1e-9), true);
-  const plain = await developable.patternMesh(box, { plain: true });
+  const plain = await developable.pattern(box, { plain: true });
   assert.deepEqual(plain.sheets[0].labels.map(({ kind }) => kind), ['sheet']);
-  await assert.rejects(developable.patternMesh(box, { size: 60, scale: 2 }), { code: 'OPTION' });
+  await assert.rejects(developable.pattern(box, { size: 60, scale: 2 }), { code: 'OPTION' });
 });

@@ -77,10 +77,11 @@ const calls = {
   readMesh: { args: { bytes: ply }, options: 'readMesh' },
   sampleMesh: { args: { mesh }, options: 'sampleMesh' },
   fitMesh: { args: { mesh: whole }, options: 'meshSolver' },
-  analyzeMesh: { args: { mesh: whole }, options: 'analyzeMesh' },
-  meshRulings: { args: { mesh: whole }, options: 'meshRulings' },
-  unrollMesh: { args: { mesh: whole }, options: 'unrollMesh' },
-  patternMesh: { args: { mesh: cube }, options: 'patternMesh' },
+  'analyze, of a mesh': { args: { mesh: whole }, options: 'analyzeMesh' },
+  'patches, of a mesh': { args: { mesh: whole }, options: 'patchesMesh' },
+  'rulings, of a mesh': { args: { mesh: whole }, options: 'rulingsMesh' },
+  'unroll, of a mesh': { args: { mesh: whole }, options: 'unrollMesh' },
+  'pattern, of a mesh': { args: { mesh: cube }, options: 'patternMesh' },
   recognizeMesh: { args: { mesh: whole } },
   backProject: { args: { input: bent, camera } },
   parseCamera: { args: { text: JSON.stringify(camera), images: [{ width: 8, height: 8 }] } },
@@ -139,7 +140,7 @@ function* hostileArguments(name) {
 /** @param {Record<string, any>} api */
 function everyFunction(api) {
   const functions = Object.keys(api).filter((name) => typeof api[name] === 'function');
-  const others = ['init', 'load', 'Solver', 'MeshSolver', 'DevelopableError', 'DevelopableWorker', 'open', 'draw', 'explorePattern', 'explorePatternMesh', 'dispose'];
+  const others = ['init', 'load', 'Solver', 'MeshSolver', 'DevelopableError', 'DevelopableWorker', 'open', 'draw', 'explorePattern', 'dispose'];
   assert.deepEqual(functions.filter((name) => !(name in calls) && !others.includes(name)), []);
   return Object.keys(calls);
 }
@@ -176,11 +177,12 @@ const UNREADABLE = /\de0|\binf\b|\d\.?\d{25}|\de\+\d|NaN (?:long|%)|is -0\b(?![.
 
 for (const [kind, api] of /** @type {[string, Record<string, any>][]} */ ([['direct', direct], ['promise', promise]])) {
   for (const name of everyFunction(api)) {
+    const call = api[name.split(',')[0]];
     test(`${name} of the ${kind} API takes anything`, async () => {
       const inOrder = Object.values(calls[name].args);
-      if (name !== 'npzArrays') await api[name](...inOrder);
-      for (const [what, args] of hostileArguments(name)) await survives(`${name}(${what})`, () => api[name](...args));
-      if (name !== 'npzArrays') await api[name](...inOrder);
+      if (name !== 'npzArrays') await call(...inOrder);
+      for (const [what, args] of hostileArguments(name)) await survives(`${name}(${what})`, () => call(...args));
+      if (name !== 'npzArrays') await call(...inOrder);
     });
   }
 }

@@ -109,7 +109,7 @@ test('an error names the option as the package calls it', () => {
     [() => direct.dewarpPage(photo, /** @type {any} */ (edges), { page: [0, 1], findLines: false }), /^option `page` is 0, but/],
     [() => direct.dewarpPage(photo, /** @type {any} */ (edges), { page: [1e300, 1e-300], findLines: false }), /^option `page` is \[1e300, 1e-300\], but/],
     [() => direct.fit(bent, { lambda: /** @type {any} */ ([1, NaN, 'x', []]) }), /^option `lambda` is \[1, NaN, "x", …\], but/],
-    [() => direct.writeSvg(/** @type {any} */ ({ sheets: 5 })), /^the drawing must be one that `pattern` or `patternMesh` gave/],
+    [() => direct.writeSvg(/** @type {any} */ ({ sheets: 5 })), /^the drawing must be one that `pattern` gave/],
     [() => direct.fit(/** @type {any} */ ('image.png')), /^the input must be an image/],
     [() => direct.pattern(bent, /** @type {any} */ ({ nothingLikeIt: 1 })), /there are only (?!.*\bpaper\b).*stock/],
   ];
@@ -130,9 +130,9 @@ test('no figure or message is not a number where a mesh is all in one place, on 
   };
   for (const [name, places] of Object.entries(shapes)) {
     const mesh = { positions: places, triangles };
-    for (const call of /** @type {const} */ (['fitMesh', 'analyzeMesh', 'meshRulings', 'unrollMesh', 'patternMesh', 'sampleMesh'])) {
+    for (const call of /** @type {const} */ (['fitMesh', 'analyze', 'patches', 'rulings', 'unroll', 'pattern', 'sampleMesh'])) {
       try {
-        const found = direct[call](mesh);
+        const found = /** @type {(mesh: any) => unknown} */ (direct[call])(mesh);
         const figures = JSON.stringify(found, (_, value) => (typeof value === 'number' && Number.isNaN(value) ? 'NaN' : ArrayBuffer.isView(value) ? undefined : value));
         assert.doesNotMatch(figures, /NaN/, `${call} of ${name}`);
       } catch (error) {

@@ -24,8 +24,8 @@ const edges = { top: across(80), bottom: across(540) };
 const calls = {
   unroll: (api, options) => api.unroll(surface, { tolerance: 1e-14, ...options }),
   pattern: (api, options) => api.pattern(surface, options),
-  unrollMesh: (api, options) => api.unrollMesh(mesh, options),
-  patternMesh: (api, options) => api.patternMesh(mesh, { exact: false, ...options }),
+  unrollMesh: (api, options) => api.unroll(mesh, options),
+  patternMesh: (api, options) => api.pattern(mesh, { exact: false, ...options }),
   dewarpPage: (api, options) => api.dewarpPage(photo, edges, options),
 };
 
@@ -68,7 +68,7 @@ test('a drawing whose options are wrong is refused before its pattern is made', 
   for (const options of [{ scale: -1 }, { tabs: -1 }, { marks: 0.5 }, { kerf: -1 }, { allowance: Infinity }, { thickness: 1, kFactor: 2 }, { stock: /** @type {[number, number]} */ ([-100, 100]) }, { stock: /** @type {[number]} */ ([60000]) }]) {
     let calls = 0;
     const onProgress = () => { calls += 1; };
-    for (const call of [() => direct.pattern(small, { ...options, onProgress }), () => direct.patternMesh(mesh, { ...options, onProgress })]) {
+    for (const call of [() => direct.pattern(small, { ...options, onProgress }), () => direct.pattern(mesh, { ...options, onProgress })]) {
       assert.throws(call, { code: 'OPTION' });
     }
     assert.equal(calls, 0, JSON.stringify(options));

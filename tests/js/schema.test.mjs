@@ -32,7 +32,7 @@ test('the types of direct calls are those of the promise API, without promises a
 const INHERITED = ['LatticeSurface.image', 'SampledMesh.origin', 'SampledMesh.heights', 'SampledMesh.frame'];
 
 test('every type, field and function has a comment, and a function says the same in both APIs', async () => {
-  /** What is said of a function by the first API. @type {Map<string, string>} */
+  /** What is said of a function, and of what it takes first, by the first API. @type {Map<string, string>} */
   const functions = new Map();
   let count = 0;
   for (const file of ['types', 'option-types', 'result-types', 'index', 'direct-calls', 'direct', 'sync', 'errors', 'camera-file']) {
@@ -52,8 +52,9 @@ test('every type, field and function has a comment, and a function says the same
         const name = declaration.id?.name ?? '';
         const [sentence] = said(node, name).replace(/^ ?\*+ ?/gm, '').trim().split(/\.\s/);
         if (APART.includes(name)) continue;
-        assert.equal(functions.get(name) ?? sentence, sentence, `${name} in ${file}.d.ts`);
-        functions.set(name, sentence);
+        const own = `${name} of ${source.slice(declaration.params[0]?.start, declaration.params[0]?.end)}`;
+        assert.equal(functions.get(own) ?? sentence, sentence, `${own} in ${file}.d.ts`);
+        functions.set(own, sentence);
       } else if ('id' in declaration && declaration.id?.type === 'Identifier') {
         const { name } = declaration.id;
         // A second declaration, as of a class and of what it has besides, may leave it to the first.

@@ -276,7 +276,7 @@ test('the textures of a mesh are printed on its sheets', async () => {
   const corners = [[0, 0.5, 0.25], [3, 0, 0.5], [3.5, 2, 1], [-0.5, 2.25, 1.5], [1, 3, 0.125]];
   const mesh = direct.readMesh(glb);
   const options = { exact: true, scale: 10, printed: true };
-  const drawing = direct.patternMesh(mesh, options);
+  const drawing = direct.pattern(mesh, options);
   const printed = drawing.sheets.flatMap((sheet) => sheet.printed ?? []);
   assert.equal(printed.length, 3);
   for (const triangle of printed) {
@@ -295,7 +295,7 @@ test('the textures of a mesh are printed on its sheets', async () => {
     const pixel = [...data.subarray(4 * (8 * row + col), 4 * (8 * row + col) + 3)];
     [32 * col, 32 * row, 128].forEach((level, k) => assert.ok(Math.abs(pixel[k] - level) < 20, `${pixel} at ${row}, ${col}`));
   }
-  assert.deepEqual(await developable.patternMesh(mesh, options), drawing);
+  assert.deepEqual(await developable.pattern(mesh, options), drawing);
 
   const [svg, pdf] = [direct.writeSvg(drawing), direct.writePdf(drawing)].map((bytes) => Buffer.from(bytes).toString('latin1'));
   assert.ok(svg.includes(`data:image/jpeg;base64,${Buffer.from(texture.jpeg).toString('base64')}`));
@@ -304,9 +304,9 @@ test('the textures of a mesh are printed on its sheets', async () => {
   assert.deepEqual(await developable.writeSvg(drawing), direct.writeSvg(drawing));
 
   const { textures, ...bare } = mesh;
-  assert.throws(() => direct.patternMesh(bare, options), { code: 'INPUT', message: /no textures.*leave out `printed`/ });
-  await assert.rejects(developable.patternMesh(bare, options), { code: 'INPUT' });
-  assert.throws(() => direct.patternMesh(mesh, { ...options, thickness: 1 }), { code: 'OPTION', message: /printed/ });
+  assert.throws(() => direct.pattern(bare, options), { code: 'INPUT', message: /no textures.*leave out `printed`/ });
+  await assert.rejects(developable.pattern(bare, options), { code: 'INPUT' });
+  assert.throws(() => direct.pattern(mesh, { ...options, thickness: 1 }), { code: 'OPTION', message: /printed/ });
 
   const folder = await temporaryFolder();
   await Promise.all(['textured.obj', 'textured.mtl', 'sheet.png'].map((name) => copyFile(place(name), join(folder, name))));

@@ -1,7 +1,7 @@
 /** Edges of flat faces that are cut or folded by a click in the drawing. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { dispose, patternMesh } from '../../pkg/index.js';
+import { dispose, pattern } from '../../pkg/index.js';
 import { sheetsInWords } from '../../www/pattern.js';
 import { edgeAt, parsePairs, togglePair } from '../../www/sheet-edges.js';
 import { obj } from './support/files.mjs';
@@ -18,7 +18,7 @@ const opposite = ['1-2', '3-4', '5-6'];
 /** @param {[number, number][]} line @returns {[number, number]} */
 const middleOf = (line) => [(line[0][0] + line[line.length - 1][0]) / 2, (line[0][1] + line[line.length - 1][1]) / 2];
 
-/** The pairs of pieces at all folds and all cuts of a drawing. @param {Awaited<ReturnType<typeof patternMesh>>} drawing */
+/** The pairs of pieces at all folds and all cuts of a drawing. @param {Awaited<ReturnType<typeof pattern>>} drawing */
 function edgesOf(drawing) {
   const places = drawing.sheets.flatMap(({ folds, labels }) => [...folds.map(({ points: line }) => middleOf(line)), ...labels.filter(({ kind }) => kind === 'seam').map(({ place }) => place)]);
   const edges = places.map((place) => edgeAt(drawing, place));
@@ -28,14 +28,14 @@ function edgesOf(drawing) {
 }
 
 test('each edge of a box is found in its drawing, as a fold or a cut, and changes places with another when it is cut', async () => {
-  const drawing = await patternMesh(box, { size: 60 });
+  const drawing = await pattern(box, { size: 60 });
   const { folds, cuts } = edgesOf(drawing);
   assert.deepEqual([folds.length, cuts.length], [5, 7]);
   // A box has twelve edges, none of them between opposite faces.
   assert.equal(new Set([...folds, ...cuts]).size, 12);
   assert.ok([...folds, ...cuts].every((pair) => !opposite.includes(pair)), `${folds} | ${cuts}`);
   const [pair] = parsePairs(folds[0]) ?? [];
-  const cut = edgesOf(await patternMesh(box, { size: 60, cut: [pair] }));
+  const cut = edgesOf(await pattern(box, { size: 60, cut: [pair] }));
   assert.ok(cut.cuts.includes(folds[0]) && cut.folds.length === 5, `${cut.folds} | ${cut.cuts}`);
   assert.equal(edgeAt(drawing, [-500, -500]), null);
   dispose();
@@ -75,7 +75,7 @@ doorTest('a fold that is clicked in the drawing is cut', async (page) => {
   await image.waitFor();
   const [toCut, toJoin] = [page.getByLabel('Cut between pieces'), page.getByLabel('Fold between pieces')];
   const address = await image.getAttribute('src');
-  const drawing = await patternMesh(box, { size: 60, tabs: 6 });
+  const drawing = await pattern(box, { size: 60, tabs: 6 });
   dispose();
   const shown = await image.boundingBox();
   assert.ok(shown);

@@ -15,8 +15,8 @@ export const optionTypesFile = join(root, 'pkg/option-types.d.ts');
 const MODULES = {
   fit: { threading: 'ThreadOptions', solver: 'SolverOptions', meshSolver: 'MeshSolverOptions', occlusions: 'OcclusionOptions' },
   shape: {
-    analyze: 'AnalyzeOptions', analyzeMesh: 'MeshAnalyzeOptions', patches: 'PatchOptions', rulings: 'RulingOptions',
-    meshRulings: 'MeshRulingOptions', unroll: 'UnrollOptions', picture: 'PictureOptions',
+    analyze: 'AnalyzeOptions', analyzeMesh: 'MeshAnalyzeOptions', patches: 'PatchOptions', patchesMesh: 'MeshPatchOptions', rulings: 'RulingOptions',
+    rulingsMesh: 'MeshRulingOptions', unroll: 'UnrollOptions', picture: 'PictureOptions',
   },
   pattern: { pattern: 'PatternOptions', unrollMesh: 'MeshUnrollOptions', patternMesh: 'MeshPatternOptions', writeSvg: 'WriteSvgOptions', writePdf: 'WritePdfOptions' },
   photo: {

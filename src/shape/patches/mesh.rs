@@ -45,6 +45,10 @@ impl MeshPatches {
         let place = |vertex: &u32| Vector3::from(mesh.positions()[*vertex as usize]);
         let places = topology.source.iter().map(place).collect();
         let shape = Facets::new(places, topology.triangles)?;
+        let area: f64 = shape.areas.iter().sum();
+        if !area.is_normal() {
+            return Err(Error::mesh_size(area));
+        }
         let bend = bend.unwrap_or_else(|| shape.usual_bend());
         let mut own = shape.parted(bend, options.smallest, fold)?;
         let patches = number_by_area(&shape, &mut own);

@@ -104,7 +104,7 @@ struct AnalysisOutput {
     /// Density of the energy at each vertex, `|kappa1| + |kappa2|`.
     #[serde(with = "preserve")]
     nuclear_norm: Float64Array,
-    /// Unit vector x, y, z at each vertex along which the mesh bends by `kappa2`, up to its sign; `meshRulings` gives smoothed directions.
+    /// Unit vector x, y, z at each vertex along which the mesh bends by `kappa2`, up to its sign; `rulings` gives smoothed directions.
     #[serde(with = "preserve")]
     rulings: Float64Array,
     /// Statistics of the curvatures. `size` is the diameter of the mesh's bounding sphere, and the sum of nuclear norms is weighted by area.
@@ -119,7 +119,7 @@ struct ThresholdInput {
 }
 
 /// Computes curvatures at a mesh's vertices, and statistics that say how developable the mesh is.
-#[wasm_bindgen(js_name = analyzeMesh)]
+#[wasm_bindgen(js_name = analyze)]
 pub fn analyze_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let ThresholdInput { threshold } = read(&options)?;
     let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
@@ -149,7 +149,7 @@ struct RulingsOutput<'a> {
 }
 
 /// Computes the rulings (straight lines in the surface) of a mesh: a direction at each vertex, and traced lines.
-#[wasm_bindgen(js_name = meshRulings)]
+#[wasm_bindgen(js_name = rulings)]
 pub fn mesh_rulings(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted: TraceOptions = read(&options)?;
     let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;

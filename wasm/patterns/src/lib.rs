@@ -167,7 +167,7 @@ impl Wanted {
     }
 }
 
-/// Cuts a surface into flat sheets and draws them; returns JavaScript's `Drawing` object.
+/// Cuts heights into flat sheets and draws them; returns JavaScript's `Drawing` object.
 #[wasm_bindgen(js_name = pattern)]
 pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted = Wanted::of(&field, &options)?;
@@ -296,6 +296,35 @@ pub fn recognize_mesh(mesh: JsValue) -> Result<JsValue> {
     Ok(to_value(&found)?)
 }
 
+/// Patches of a mesh (regions without a crease inside), that with the largest area first, and the creases between them.
+#[derive(Serialize)]
+#[serde(rename = "MeshPatchMap")]
+struct PatchesOutput<'a> {
+    /// Number of the patch of each triangle of the mesh, −1 for none.
+    #[serde(with = "preserve")]
+    labels: Int32Array,
+    /// The patches, in the order of their numbers.
+    patches: &'a [Patch],
+    /// The creases between the patches.
+    creases: &'a [Crease],
+    /// Angle between neighbouring triangles, in radians, above which an edge counted as part of a crease.
+    bend: f64,
+}
+
+/// Segments a mesh into patches and finds the creases between them; returns JavaScript's `MeshPatchMap` object.
+#[wasm_bindgen(js_name = patches)]
+pub fn patches_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
+    let wanted: PatchOptions = read(&options)?;
+    let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
+    let found = MeshPatches::new(&mesh, &wanted)?;
+    Ok(to_value(&PatchesOutput {
+        labels: labels_of(&found),
+        patches: found.patches(),
+        creases: found.creases(),
+        bend: found.bend(),
+    })?)
+}
+
 /// Sheets of a mesh laid flat, one to the right of the other, seen from the side that the triangles face. They have more vertices than the mesh, since it is cut.
 #[derive(Serialize)]
 #[serde(rename = "MeshUnrolling")]
@@ -340,12 +369,11 @@ struct UnrollingReport {
 }
 
 /// Cuts a mesh into flat sheets and lays them side by side; returns JavaScript's `MeshUnrolling` object.
-#[wasm_bindgen(js_name = unrollMesh)]
+#[wasm_bindgen(js_name = unroll)]
 pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted = Wanted::of(&mesh, &options)?;
     let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
     let (patches, found) = sheets_of(&mesh, &wanted)?;
-    let labels: Vec<i32> = patches.labels().iter().map(|label| *label as i32).collect();
     let (mut positions, mut places, mut triangles, mut sheets) =
         (Vec::new(), Vec::new(), Vec::<[u32; 3]>::new(), Vec::new());
     let mut right = 0.0;
@@ -364,7 +392,7 @@ pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     }
     let most = |of: fn(&Sheet) -> f64| found.sheets.iter().map(of).fold(0.0, f64::max);
     Ok(to_value(&UnrollingOutput {
-        labels: labels.as_slice().into(),
+        labels: labels_of(&patches),
         positions: positions.as_flattened().into(),
         places: places.as_flattened().into(),
         triangles: triangles.as_flattened().into(),
@@ -379,6 +407,12 @@ pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
             missing: found.missing,
         },
     })?)
+}
+
+/// The number of each triangle's patch; in JavaScript the label of no patch is −1.
+fn labels_of(patches: &MeshPatches) -> Int32Array {
+    let labels: Vec<i32> = patches.labels().iter().map(|label| *label as i32).collect();
+    labels.as_slice().into()
 }
 
 fn sheets_of(mesh: &Mesh, wanted: &Wanted) -> Result<(MeshPatches, Pattern)> {
@@ -490,6 +524,7 @@ pub fn write_dxf_file(drawing: JsValue) -> Result<Uint8Array> {
 fn drawn(drawing: JsValue) -> Result<Drawing> {
     from_value(drawing).map_err(|_| Failure {
         code: "INPUT",
-        message: "the drawing must be one that `pattern` or `patternMesh` gave, with nothing taken out or changed".into(),
+        message: "the drawing must be one that `pattern` gave, with nothing taken out or changed"
+            .into(),
     })
 }

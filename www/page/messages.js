@@ -6,7 +6,8 @@ import { count, number } from '../format.js';
 /** Texts about a photo of a page. */
 export const PAGE_WORDS = {
   unfound: 'I found no page in this photo. If it shows one, drag the four corners onto it.',
-  unfoundDetail: 'The flat page appears as soon as you move a corner.',
+  /** @param {number} corners that are not placed yet */
+  unplaced: (corners) => `The flat page appears when ${corners === 4 ? 'all four are placed' : corners === 1 ? 'the last one is placed' : `the other ${count(corners)} are placed, too`}.`,
   noFlat: 'No flat page from this outline.',
   unflattened: 'This outline cannot be made flat.',
   several: 'I found several pages. Take',
@@ -91,11 +92,9 @@ function doubtWords({ doubt }) {
  * @param {object} about
  * @param {readonly string[]} about.outside names of the corners outside the photo
  * @param {readonly string[]} about.weak names of the edges that are hardly visible
- * @param {number} about.unplaced number of corners that were not dragged yet, if no page was found
  */
-export function pageCautions({ outside, weak, unplaced }) {
+export function pageCautions({ outside, weak }) {
   return [
-    ...(unplaced > 0 ? [`Drag the other ${unplaced === 1 ? 'corner' : `${count(unplaced)} corners`}, too.`] : []),
     ...(outside.length > 0 ? [outside.length === 1 ? `The ${outside[0]} corner is outside the photo.` : `The page is partly outside the photo: its ${list.format(outside)} corners.`] : []),
     ...(weak.length > 0 ? [`The ${list.format(weak)} ${weak.length === 1 ? 'edge is' : 'edges are'} hard to see.`] : []),
   ];

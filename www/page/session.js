@@ -14,12 +14,12 @@ import { EDGE_NAMES, EDGES, Outline } from './outline.js';
  * @property {number} progress share of the present flattening that is done; 0 when one begins
  * @property {boolean} working whether a flat page is being computed, or another photo is being opened
  * @property {{ flat: DewarpedPage, moving: boolean }} flat a new flat page of the reduced photo; `moving`: something is being dragged
- * @property {null} unfound no page was detected: the user has to put the corners onto it first
+ * @property {null} unfound no page was detected, and not all corners were put onto it by hand yet
  * @property {null} lines the traced edges or the detected lines of text have changed
  * @property {unknown} problem error that prevents a flat page
  */
 /** @typedef {{ outline: Outline, movedCorners: ReadonlySet<number>, pageIndex: number }} Snapshot */
-/** @typedef {Snapshot & { quarters: number, traces: Traces }} PageState the outline of the page in a photo, without its pixels; what a browser has kept of it is data without methods */
+/** @typedef {Snapshot & { quarters: number, traces: Traces | null }} PageState the outline of the page in a photo, without its pixels; what a browser has kept of it is data without methods. `traces`: null as long as the page is not found */
 
 /** Maximum distance of a corner outside the photo, in diagonals of the photo: less than what the package accepts. */
 const MAX_CORNER_OUTSIDE_DIAGONALS = 0.045;
@@ -60,9 +60,9 @@ export class PageSession extends Events {
     this.worker = new api.DevelopableWorker();
   }
 
-  /** Whether no page was detected and no corner was moved by hand yet. */
-  get isPageMissing() {
-    return this.photo?.outlines.verdict === 'notFound' && this.movedCorners.size === 0;
+  /** Number of corners that have to be put onto the page by hand, since it was not detected. */
+  get unplacedCorners() {
+    return this.photo?.outlines.verdict === 'notFound' ? 4 - this.movedCorners.size : 0;
   }
 
   /** Whether there is a change to undo. */
@@ -148,11 +148,10 @@ export class PageSession extends Events {
     this.#history.push({ outline: Outline.copyOf(outline), movedCorners, pageIndex });
   }
 
-  /** The state to restore when the photo is shown again; null without an outline. @returns {PageState | null} */
+  /** The state to restore when the photo is shown again. @returns {PageState} */
   state() {
     const { outline, movedCorners, pageIndex, quarters } = this;
-    const request = this.isPageMissing ? null : this.request();
-    return request && { outline: Outline.copyOf(outline), movedCorners, pageIndex, quarters, traces: request.traces };
+    return { outline: Outline.copyOf(outline), movedCorners, pageIndex, quarters, traces: this.unplacedCorners > 0 ? null : this.#outlineTraces() };
   }
 
   /** Undoes the last change of the outline. */
@@ -259,10 +258,10 @@ export class PageSession extends Events {
   #update(moving = false) {
     const request = this.request(moving);
     if (!request) return;
-    this.#latestRequest = this.isPageMissing ? null : request;
+    this.#latestRequest = this.unplacedCorners > 0 ? null : request;
     this.traces = request.traces;
     this.emit('outline', { outline: this.outline, moving });
-    if (this.isPageMissing) {
+    if (!this.#latestRequest) {
       [this.foundLines, this.#flat] = [[], null];
       this.emit('unfound', null);
       this.emit('lines', null);

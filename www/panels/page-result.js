@@ -77,7 +77,7 @@ export function pageResultPanel(api, session, book, onWritten) {
   session.on('outline', ({ moving }) => {
     isMoving = moving;
     // The layout of the page does not change during a drag.
-    if (!moving) side.dataset.state = session.isPageMissing ? 'unfound' : 'found';
+    if (!moving) side.dataset.state = session.unplacedCorners > 0 ? 'unfound' : 'found';
   });
   session.on('working', (working) => {
     figure.setAttribute('aria-busy', String(working));
@@ -95,8 +95,8 @@ export function pageResultPanel(api, session, book, onWritten) {
     }, PROGRESS_DELAY_MS);
   });
   session.on('unfound', () => {
-    clear(PAGE_WORDS.unfoundDetail);
-    say(PAGE_WORDS.unfound, PAGE_WORDS.unfoundDetail);
+    clear('');
+    say(PAGE_WORDS.unfound, PAGE_WORDS.unplaced(session.unplacedCorners));
   });
   session.on('flat', ({ flat, moving }) => {
     shown = flat;
@@ -116,9 +116,7 @@ export function pageResultPanel(api, session, book, onWritten) {
     // During a drag the page is flattened without its lines of text, so that the figures would differ.
     if (moving) return;
     caption.textContent = flat.unit === 'mm' ? sizeOf(flat, session.quarters) : '';
-    const unplaced = session.photo?.outlines.verdict === 'notFound' ? 4 - session.movedCorners.size : 0;
-    side.toggleAttribute('data-unplaced', unplaced > 0);
-    const cautions = pageCautions({ outside: session.outsideCorners, weak: session.weakEdges, unplaced });
+    const cautions = pageCautions({ outside: session.outsideCorners, weak: session.weakEdges });
     const lightNote = flat.light === 'keep' && session.options.light !== 'keep' ? [PAGE_WORDS.keptLight] : [];
     say(pageVerdict(report), [...cautions, pageErrors(report, flat.unit === 'mm' ? flat.size[0] / session.outline.pages : undefined), ...lightNote].filter(Boolean).join(' '));
     facts.hidden = false;

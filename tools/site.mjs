@@ -21,7 +21,7 @@ const IMPORTS = [
   { file: 'api.js', from: "new URL('./pkg/wasm/solver_bg.wasm', import.meta.url)", to: "new URL('../pkg/wasm/solver_bg.wasm', import.meta.url)" },
   { file: join('panels', 'report.js'), from: "new URL('../pkg/package.json', import.meta.url).href, { with: { type: 'json' } }", to: "'../../pkg/package.json'" },
   { file: join('surface', 'scene.js'), from: "new URL('../vendor/three.js', import.meta.url).href", to: "'../vendor/three.js'" },
-  { file: 'solid.js', from: "new URL('./vendor/fflate.js', import.meta.url).href", to: "'./vendor/fflate.js'" },
+  { file: 'zip.js', from: "new URL('./vendor/fflate.js', import.meta.url).href", to: "'./vendor/fflate.js'" },
 ];
 
 /** Quality of Brotli for a server that stops with the command: the best saves a tenth more and takes twenty times as long. */

@@ -16,6 +16,9 @@ export function stemOf({ name }) {
   return name.replace(/\.[^.]*$/, '');
 }
 
+/** The ending of a file's name in lower case. @param {{ name: string }} file */
+export const endingOf = ({ name }) => name.toLowerCase().split('.').pop();
+
 /** Whether a file is a PDF, whose pages are pictures. @param {{ name: string, type: string }} file */
 export const isPdf = ({ name, type }) => /\.pdf$/i.test(name) || type === 'application/pdf';
 

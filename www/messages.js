@@ -61,6 +61,19 @@ export const FILE_WORDS = {
   openInstead: (files) => (files.length === 1 ? `Open “${files[0].name}” instead` : 'Open these instead'),
 };
 
+/** Labels and messages about several scans that are cleaned in one go. */
+export const BATCH_WORDS = {
+  /** @param {number} n */
+  offer: (n) => `Clean ${n === 2 ? 'both' : `all ${count(n)}`} into one ZIP…`,
+  /** @param {number} n */
+  title: (n) => `${count(n)} scans in one ZIP`,
+  /** @param {number} n @param {number} all @param {string} name */
+  solving: (n, all, name) => `Cleaning ${count(n)} of ${count(all)}, “${name}”…`,
+  depths: 'it has depths from a camera: open it alone',
+  /** @param {readonly string[]} problems */
+  without: (problems) => (problems.length > 0 ? `Without ${problems.join('; ')}.` : ''),
+};
+
 /** Messages about depths from a camera. */
 export const DEPTH_WORDS = {
   /** @param {string} angle @param {number} scale */

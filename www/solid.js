@@ -6,6 +6,7 @@ import { FORMAT_WORDS, SOLID_WORDS } from './messages.js';
 import { offerToSave } from './panels/save-dialog.js';
 import { suggestedSide } from './pattern.js';
 import { borderEdges, boxOf, sidesOf } from './surface/triangles.js';
+import { zipOf } from './zip.js';
 
 /** @import {Format} from './panels/save-dialog.js' */
 
@@ -74,16 +75,15 @@ function mitreDirections(positions, triangles) {
 }
 
 /** A mesh as a 3MF file, in millimetres. @param {{ positions: Float64Array, triangles: Uint32Array }} mesh */
-async function threeMf({ positions, triangles }) {
+function threeMf({ positions, triangles }) {
   /** @param {ArrayLike<number>} values @param {string} tag @param {readonly string[]} names */
   const elements = (values, tag, names) => Array.from({ length: values.length / 3 }, (_, i) =>
     `<${tag} ${names.map((name, k) => `${name}="${Number(values[3 * i + k].toPrecision(8))}"`).join(' ')}/>`).join('\n');
   const core = 'http://schemas.microsoft.com/3dmanufacturing/core/2015/02';
-  const { strToU8, zipSync } = await import(new URL('./vendor/fflate.js', import.meta.url).href);
-  return zipSync({
-    '[Content_Types].xml': strToU8('<?xml version="1.0" encoding="UTF-8"?>\n<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>'),
-    '_rels/.rels': strToU8('<?xml version="1.0" encoding="UTF-8"?>\n<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'),
-    '3D/3dmodel.model': strToU8(`<?xml version="1.0" encoding="UTF-8"?>\n<model unit="millimeter" xml:lang="en-US" xmlns="${core}"><resources><object id="1" type="model"><mesh><vertices>\n${elements(positions, 'vertex', ['x', 'y', 'z'])}\n</vertices><triangles>\n${elements(triangles, 'triangle', ['v1', 'v2', 'v3'])}\n</triangles></mesh></object></resources><build><item objectid="1"/></build></model>`),
+  return zipOf({
+    '[Content_Types].xml': '<?xml version="1.0" encoding="UTF-8"?>\n<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>',
+    '_rels/.rels': '<?xml version="1.0" encoding="UTF-8"?>\n<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>',
+    '3D/3dmodel.model': `<?xml version="1.0" encoding="UTF-8"?>\n<model unit="millimeter" xml:lang="en-US" xmlns="${core}"><resources><object id="1" type="model"><mesh><vertices>\n${elements(positions, 'vertex', ['x', 'y', 'z'])}\n</vertices><triangles>\n${elements(triangles, 'triangle', ['v1', 'v2', 'v3'])}\n</triangles></mesh></object></resources><build><item objectid="1"/></build></model>`,
   });
 }
 

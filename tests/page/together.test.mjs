@@ -1,8 +1,9 @@
 /** Files that belong together: depths with their photo and camera, scans with their textures. */
 import assert from 'node:assert/strict';
+import { unzipSync } from 'fflate';
 import { meets } from '../js/support/phone.mjs';
-import { grid, npy, png16 } from './support/files.mjs';
-import { choose, doorTest, drop, dropAll, look, open, pageTest, painted, runBy, settled } from './support/page.mjs';
+import { grid, npy, parseNpy, png16 } from './support/files.mjs';
+import { choose, doorTest, downloaded, drop, dropAll, look, open, pageTest, painted, runBy, settled } from './support/page.mjs';
 import { camera, dots, dottedPhoto, png } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -108,6 +109,20 @@ doorTest('heights in another unit, and levels that are guessed, are asked about'
   assert.doesNotMatch(await assumed.innerText(), /pixels are/, 'what is decided is not assumed');
   await open(page, 'levels.png', png16(60, grid(60, 40, (col) => 20000 + 100 * col)));
   assert.match(await assumed.innerText(), /from black to white is a quarter of the longer side/);
+});
+
+doorTest('several scans are cleaned into one ZIP, and what fails is left out with its reason', async (page) => {
+  const [small, large] = [npy(40, grid(40, 30, (col, row) => 0.1 * Math.abs(col - 20) + 0.02 * row)), npy(60, grid(60, 40, (col) => 0.1 * col))];
+  await dropAll(page, { 'b.npy': small, 'a.npy': large, 'broken.npy': Buffer.from('no numbers') });
+  await page.getByRole('button', { name: 'Clean all 3 into one ZIP…' }).click();
+  await page.locator('#save-formats').getByRole('radio', { name: /^NPY / }).check();
+  await page.locator('#save-size', { hasText: /^scans\.npy\.zip, .* Without “broken\.npy”: / }).waitFor();
+  const { bytes } = await downloaded(page, () => page.locator('#save-now').click());
+  const { 'reports.csv': table, ...surfaces } = unzipSync(bytes);
+  assert.deepEqual(Object.entries(surfaces).map(([name, content]) => [name, parseNpy(Buffer.from(content)).cols]), [['b-developable.npy', 40], ['a-developable.npy', 60]]);
+  const [columns, ...rows] = new TextDecoder().decode(table).trim().split('\r\n').map((line) => line.split(','));
+  assert.deepEqual(rows.map(([file]) => file), ['b', 'a']);
+  assert.ok(rows.every((row) => row.length === columns.length && Number(row[columns.indexOf('lambda')]) > 0), String(rows));
 });
 
 /** The flat page itself. @param {number} wide @param {number} high */

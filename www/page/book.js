@@ -67,13 +67,13 @@ export class Book {
    * @param {PackageWorker} worker
    * @param {readonly [number, number] | null} paper size in millimetres; null for true size
    * @param {boolean} text whether text is recognised
+   * @param {AbortSignal} signal
    * @param {(index: number) => void} onPhoto called before each photo
    * @returns the picture file and the size of each page
    * @throws if no photo can be flattened
    */
-  async flatPages(api, session, worker, paper, text, onPhoto) {
+  async flatPages(api, session, worker, paper, text, signal, onPhoto) {
     this.saveState(session);
-    const { signal } = new AbortController();
     const pages = [];
     for (const [i, entry] of this.photos.entries()) {
       onPhoto(i);
@@ -86,16 +86,17 @@ export class Book {
         const flat = await runInWorker(api, signal, async (own) => flattenWholePhoto(own, request, await flattenReducedPhoto(own, request)));
         pages.push(...await pictureFiles(worker, flat, traces[0].length, quarters, paper, { ink: session.options.ink, text }));
       } catch (error) {
+        signal.throwIfAborted();
         entry.problem = plainMessage(error);
       }
     }
-    if (pages.length === 0) throw new Error(this.problemsInWords());
+    if (pages.length === 0) throw new Error(this.problems().join('; '));
     return pages;
   }
 
-  /** The photos that are not in the PDF, each with the reason; empty if all are. */
-  problemsInWords() {
-    return this.photos.flatMap(({ file: { name }, problem }) => (problem ? [`“${name}”: ${problem}`] : [])).join('; ');
+  /** The photos that are left out, each with the reason. */
+  problems() {
+    return this.photos.flatMap(({ file: { name }, problem }) => (problem ? [`“${name}”: ${problem}`] : []));
   }
 }
 

@@ -36,8 +36,7 @@ export const BOOK_WORDS = {
   added: (added, all) => `${added === 1 ? 'The photo is' : `${count(added)} photos are`} added: ${count(all)} photos, one PDF.`,
   alone: 'Open it alone',
   unfound: 'I did not find its page. Show this photo and drag the four corners onto the page',
-  /** @param {string} problems */
-  without: (problems) => problems && `Without ${problems}.`,
+  zip: 'a picture of each page',
   /** @param {number} n */
   pdf: (n) => `${n === 2 ? 'both' : `all ${count(n)}`} photos, a page each`,
   /** @param {number} n @param {number} all */

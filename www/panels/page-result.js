@@ -7,14 +7,16 @@ import { PAPERS, pictureFiles, similarPaper, turnPicture } from '../page/paper.j
 import { imagePicture, PictureView } from '../surface/picture-view.js';
 import { canvasFromImage } from '../surface/layer.js';
 import { figures } from '../views/legend.js';
-import { FORMAT_WORDS, SAVE_WORDS, TASK_WORDS } from '../messages.js';
+import { BATCH_WORDS, FORMAT_WORDS, SAVE_WORDS, TASK_WORDS } from '../messages.js';
 import { BOOK_WORDS, PAGE_WORDS, pageCautions, pageErrors, pageVerdict } from '../page/messages.js';
+import { zipOf } from '../zip.js';
 import { dividerOver } from './divider.js';
 import { offerToSave } from './save-dialog.js';
 import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
 
 /** @import {Book} from '../page/book.js' */
 /** @import {PaperName} from '../page/paper.js' */
+/** @import {Format} from './save-dialog.js' */
 
 /**
  * @param {Api} api
@@ -144,9 +146,12 @@ export function pageResultPanel(api, session, book, onWritten) {
     const several = book.photos.length > 1;
     const title = several ? stemOf(book.photos[0].file) : wish.photo.name;
     const status = element('save-size', HTMLElement);
-    const showProgress = (/** @type {number} */ done) => {
+    const chosenPaper = () => (paper.value === '' ? null : PAPERS[/** @type {PaperName} */ (paper.value)]);
+    /** @param {PackageWorker} worker @param {AbortSignal} signal @param {boolean} [withText] */
+    const flatBook = (worker, signal, withText = false) => book.flatPages(api, session, worker, chosenPaper(), withText, signal, (done) => {
       status.textContent = BOOK_WORDS.writing(done + 1, book.photos.length);
-    };
+    }).finally(onWritten);
+    const ofBook = several ? { stem: `${title}-pages`, note: () => BATCH_WORDS.without(book.problems()) } : {};
     /** The flat page with all pixels of the photo, which is made once for all formats. @type {FlatPage | null} */
     let flat = null;
     /** @param {'png' | 'jpeg'} format */
@@ -158,12 +163,13 @@ export function pageResultPanel(api, session, book, onWritten) {
       title: 'Flat page',
       stem: `${wish.photo.name}-flat`,
       formats: [
-        { value: 'pdf', name: 'PDF', ...(several && { stem: `${title}-pages`, note: () => BOOK_WORDS.without(book.problemsInWords()) }), words: several ? BOOK_WORDS.pdf(book.photos.length) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker) => {
-          const size = paper.value === '' ? null : PAPERS[/** @type {PaperName} */ (paper.value)];
-          if (several) return worker.writeBook(await book.flatPages(api, session, worker, size, text.checked, showProgress).finally(onWritten), { title });
+        { value: 'pdf', name: 'PDF', ...ofBook, words: several ? BOOK_WORDS.pdf(book.photos.length) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker, signal) => {
+          if (several) return worker.writeBook(await flatBook(worker, signal, text.checked), { title });
           flat ??= await flattenWholePhoto(worker, wish, found);
-          return worker.writeBook(await pictureFiles(worker, flat, pages, quarters, size, { ink: wish.options.ink, text: text.checked }), { title });
+          return worker.writeBook(await pictureFiles(worker, flat, pages, quarters, chosenPaper(), { ink: wish.options.ink, text: text.checked }), { title });
         } },
+        ...(several ? [/** @type {Format} */ ({ value: 'zip', name: 'ZIP', ...ofBook, words: BOOK_WORDS.zip, type: 'application/zip', write: async (worker, signal) =>
+          zipOf(Object.fromEntries((await flatBook(worker, signal)).map(({ picture }, i) => [`${title}-${i + 1}.${wish.options.ink ? 'png' : 'jpg'}`, picture]))) })] : []),
         { value: 'jpg', name: 'JPEG', words: FORMAT_WORDS.jpg, type: 'image/jpeg', write: writeImage('jpeg') },
         { value: 'png', name: 'PNG', words: FORMAT_WORDS.png, type: 'image/png', write: writeImage('png') },
       ],

@@ -30,7 +30,7 @@ export function reportPanel(session, analyses) {
     }
   };
   on('report-save', onSave('json', 'application/json', (report) => `${JSON.stringify(report, null, 2)}\n`));
-  on('report-csv', onSave('csv', 'text/csv', (report) => [['quantity', 'value'], ...figuresOf(report)].map((cells) => `${cells.map(csvCell).join(',')}\r\n`).join('')));
+  on('report-csv', onSave('csv', 'text/csv', (report) => csvOf([['quantity', 'value'], ...figuresOf(report)])));
   const offers = [copyButton('copy-command'), copyButton('copy-code')];
   copyButton('copy-citation')(CITATION);
   const uncopied = element('report-uncopied', HTMLElement);
@@ -60,11 +60,11 @@ function copyButton(id) {
   };
 }
 
-/** @param {string} text */
-const csvCell = (text) => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+/** A table as CSV. @param {readonly (readonly string[])[]} rows */
+export const csvOf = (rows) => rows.map((cells) => `${cells.map((text) => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text)).join(',')}\r\n`).join('');
 
 /** The figures of a report by their paths, such as `huber.creases`, without its lists. @param {object} report @returns {[string, string][]} */
-function figuresOf(report) {
+export function figuresOf(report) {
   return Object.entries(report).flatMap(([name, value]) => {
     if (Array.isArray(value) || value === undefined || value === null) return [];
     return typeof value === 'object' ? figuresOf(value).map(([path, figure]) => /** @type {[string, string]} */ ([`${name}.${path}`, figure])) : [[name, String(value)]];

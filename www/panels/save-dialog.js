@@ -16,7 +16,7 @@ import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
  * @property {string} [stem] file name without its ending, where it differs from that of the offer
  * @property {() => string} [note] sentence about the file that was written, such as what it lacks
  * @property {string} [without] reason why the format is not available
- * @property {(worker: PackageWorker) => Promise<Uint8Array<ArrayBuffer> | Blob | string>} write
+ * @property {(worker: PackageWorker, signal: AbortSignal) => Promise<Uint8Array<ArrayBuffer> | Blob | string>} write `signal` aborts when the dialog is closed
  *
  * @typedef {object} SaveOffer
  * @property {string} title
@@ -93,7 +93,7 @@ export function offerToSave(api, { title, stem, ready = async () => {}, formats,
       if (job !== present) return;
       size.textContent = SAVE_WORDS.working;
       progress.begin('writing');
-      const content = await runInWorker(api, job.signal, format.write);
+      const content = await runInWorker(api, job.signal, (worker) => format.write(worker, job.signal));
       if (job !== present) return;
       progress.end();
       const name = `${format.stem ?? stem}.${format.value}`;

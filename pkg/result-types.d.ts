@@ -920,6 +920,8 @@ export interface MeshUnrolling {
   triangles: Uint32Array<ArrayBuffer>;
   /** Number of the sheet of each vertex, from 0. */
   sheets: Uint32Array<ArrayBuffer>;
+  /** The two singular values of each triangle's map from the mesh to the plane, the larger one first. */
+  stretches: Float64Array<ArrayBuffer>;
   /** The patches of the mesh, that with the largest area first. */
   patches: Patch[];
   /** The creases between the patches. */

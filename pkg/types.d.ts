@@ -424,6 +424,12 @@ export interface TextureFile {
 
 /** How sheets are put together: the order of steps, and two files that show it. */
 export interface Assembly extends AssemblyOrder {
+  /** Coordinates x, y, z of each vertex of the sheets once they are put together, in the surface's unit. */
+  positions: Float64Array<ArrayBuffer>;
+  /** Three vertices of the sheets for each of their triangles, counted from 0. */
+  triangles: Uint32Array<ArrayBuffer>;
+  /** Number of the sheet of each vertex, from 0; names of sheets count from 1. */
+  sheets: Uint32Array<ArrayBuffer>;
   /** GLB file in metres, with +y up: flat sheets that move to their places one after the other, in the animation `Assembly`. */
   model: Uint8Array<ArrayBuffer>;
   /** SVG file: the surface from above, with sheets in the colours of the model and the drawing's numbers and letters. */

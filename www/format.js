@@ -2,8 +2,8 @@
 
 const NARROW_NO_BREAK_SPACE = '\u202f';
 const NO_BREAK_SPACE = '\u00a0';
-/** Maximum size of a rounding error, relative to a typical value. */
-const MAX_RELATIVE_ROUNDING = 1e-9;
+/** Minimum size of a share, or of a value relative to a typical one, that is not a rounding error. */
+const MIN_SHARE = 1e-7;
 const SUPERSCRIPT_DIGITS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
 /** An integer with separated thousands. @param {number} n */
@@ -20,7 +20,7 @@ export const countOf = (n, one, many = `${one}s`) => `${count(n)} ${n === 1 ? on
  * @param {number} typicalValue
  */
 export function numberAgainst(value, typicalValue) {
-  return number(Math.abs(value) < MAX_RELATIVE_ROUNDING * Math.abs(typicalValue) ? 0 : value, 2);
+  return number(Math.abs(value) < MIN_SHARE * Math.abs(typicalValue) ? 0 : value, 2);
 }
 
 /**
@@ -75,9 +75,6 @@ export function percentAtMost(share) {
   const roundedUp = Math.ceil(percent / unit - 1e-9) * unit;
   return `${number(roundedUp, 2)}${NO_BREAK_SPACE}%`;
 }
-
-/** Minimum size of a share that is not a rounding error. */
-const MIN_SHARE = 1e-7;
 
 /** A share in percent. @param {number} share */
 export function percent(share) {

@@ -165,13 +165,15 @@ export const MESH_FIT_WORDS = {
 export const SHEET_WORDS = {
   /** @param {string} unit */
   unit: (unit) => (({ mm: 'millimetres', cm: 'centimetres', m: 'metres', inch: 'inches' })[unit] ?? unit),
-  figures: 'Figures',
+  figures: 'Figures, and how to build it',
   title: 'Cut-out sheets',
   /** @param {string} side @param {number} pages @param {number} joints @param {string} [smallest] of several sheets */
   headline: (side, pages, joints, smallest) =>
     `Cut-out sheets: ${side} mm, ${countOf(pages, 'page')}, ${countOf(joints, 'joint')}${smallest ? `, smallest sheet ${smallest} mm` : ''}`,
   /** @param {string} smallest */
   small: (smallest) => `Hard to build: the smallest sheet is ${smallest} mm long. Make it larger, or its pieces simpler.`,
+  /** @param {number} joints */
+  long: (joints) => `Long to build: ${count(joints)} joints. Simpler pieces have fewer.`,
   /** @param {number} pages */
   manyPages: (pages) => `These are ${count(pages)} pages. Is the unit of the file right? A smaller longer side needs fewer.`,
   upperSide: 'The surface is the upper side of the metal.',
@@ -188,7 +190,7 @@ export const SHEET_WORDS = {
   pdf: 'to print at 100 %, in true size',
   svg: 'for a cutting plotter or a drawing program',
   dxf: 'for a laser cutter or CAD',
-  png: 'a picture of the finished piece, with the numbers of its sheets',
+  png: 'a picture of the finished piece, and how its sheets are joined',
   glb: 'a 3D film of how the sheets go to their places',
   curvedFold: 'Metal needs straight bends, and one fold of these sheets is curved. Choose “card or paper”, or a smaller λ for simpler pieces.',
   /** @param {string} reason */

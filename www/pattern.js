@@ -128,8 +128,19 @@ export async function drawingImage(api, drawing) {
   return image;
 }
 
-/** An animation of the assembly, as a GLB file. @param {Drawing} drawing */
-export function assemblyModel({ assembly }) {
+/** How the sheets of a drawing are put together. @param {Drawing} drawing */
+export function assemblyOf({ assembly }) {
   if (!assembly) throw new Error('nothing is said of how it is put together');
-  return assembly.model;
+  return assembly;
+}
+
+/** What is joined in each step of the assembly, by the sheets' numbers and the letters of their sides. @param {Drawing} drawing */
+export function buildSteps(drawing) {
+  return assemblyOf(drawing).steps.map(({ sheet, joints }) => {
+    const ways = [...new Set(joints.map(({ to }) => to))].map((to) => {
+      const sides = joints.filter((joint) => joint.to === to).map(({ name }) => name || '–').join(', ');
+      return to === sheet ? `its own sides ${sides}` : `${sides} to sheet ${to + 1}`;
+    });
+    return `Sheet ${sheet + 1}${ways.length > 0 ? `: join ${ways.join('; ')}` : ''}.`;
+  });
 }

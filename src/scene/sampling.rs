@@ -69,7 +69,7 @@ pub struct Samples {
 /// # Errors
 /// [`Error::Option`] for a view or resolution out of range, [`Error::TooLarge`]
 /// for a lattice of more than [`MAX_CELLS`](crate::MAX_CELLS) vertices,
-/// [`Error::Unsupported`] if nothing is seen, [`Error::OutOfMemory`].
+/// [`Error::Unsupported`] if nothing is seen, or a cloud has too few points, [`Error::OutOfMemory`].
 pub fn sample(mesh: &Mesh, view: View, resolution: Resolution) -> Result<Samples> {
     let frame = view.frame(mesh)?;
     let (min, max) = seen(mesh, &frame);
@@ -94,7 +94,17 @@ pub fn sample(mesh: &Mesh, view: View, resolution: Resolution) -> Result<Samples
     }
     let lattice = Lattice::covering(min, max, spacing)?;
     if mesh.is_cloud() {
-        return sample_cloud(mesh, frame, lattice);
+        let samples = sample_cloud(mesh, frame, lattice)?;
+        let seen = samples.indices.iter().filter(|i| **i != NO_TRIANGLE);
+        // Not even a vertex with its six neighbours.
+        if resolution == Resolution::Auto && seen.count() < 7 {
+            let points = mesh.positions().len();
+            return Err(Error::Unsupported {
+                format: "point cloud",
+                reason: format!("{points} points are too few for a surface; give more of them"),
+            });
+        }
+        return Ok(samples);
     }
     let mut buffer = Buffer {
         lattice,

@@ -201,10 +201,15 @@ test('a whole mesh is measured, laid flat and drawn', async () => {
   assert.deepEqual({ labels, patches, creases }, { labels: sheets.labels, patches: sheets.patches, creases: sheets.creases });
   assert.equal(direct.patches(surface, { fold: 3 }).patches.length, 1);
   assert.equal(sheets.places.length / 2, sheets.positions.length / 3);
+  assert.equal(sheets.stretches.length / 2, sheets.triangles.length / 3);
+  assert.ok(median(Array.from(sheets.stretches, (stretch) => Math.abs(stretch - 1))) < 0.01, 'each is of its own triangle');
   assert.ok(sheets.report.strain <= 0.01 && Math.abs(sheets.report.area / (pipe + cone) - 1) < 0.03);
   const drawing = await developable.pattern(surface, { scale: 10, tabs: 4, assembly: true });
   assert.equal(drawing.sheets.length, sheets.report.sheets);
-  assert.equal(drawing.assembly?.steps.length, drawing.sheets.length);
+  assert.ok(drawing.assembly);
+  const { steps, positions, triangles, sheets: sheetOf } = drawing.assembly;
+  assert.equal(steps.length, drawing.sheets.length);
+  assert.deepEqual([positions, triangles, sheetOf], [sheets.positions, sheets.triangles, sheets.sheets]);
   assert.match(new TextDecoder().decode(direct.writeSvg(drawing)), /<svg/);
   assert.deepEqual(direct.pattern(surface, { scale: 10, tabs: 4, assembly: true }).sheets, drawing.sheets);
   assert.throws(() => direct.unroll(surface, /** @type {any} */ ({ spacing: 1 })), error('OPTION', /spacing/));

@@ -214,3 +214,14 @@ mod files {
         }
     }
 }
+
+#[test]
+fn too_few_points_for_a_vertex_with_six_neighbours_are_said() {
+    let mesh = |count| Mesh::cloud(scattered(1.0, count, |x, y| x + y)).unwrap();
+    let error = sample(&mesh(3.0), DOWN, Resolution::Auto).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "point cloud: 3 points are too few for a surface; give more of them"
+    );
+    assert!(sample(&mesh(60.0), DOWN, Resolution::Auto).is_ok());
+}

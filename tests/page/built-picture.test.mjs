@@ -13,10 +13,10 @@ doorTest('the picture of a finished tower is upright, shaded, at an angle and nu
   const { width, data } = parsePng((await saveAs(page, 'PNG')).bytes);
   /** Columns and rows of what is coloured, and its tones. */
   const [cols, rows, tones] = [[Infinity, -Infinity], [Infinity, -Infinity], new Map()];
-  let black = 0;
+  const black = { above: 0, below: 0 };
   for (let i = 0; i < data.length; i += 4) {
     const [least, most] = [Math.min(data[i], data[i + 1], data[i + 2]), Math.max(data[i], data[i + 1], data[i + 2])];
-    if (most < 30) black++;
+    if (most < 30) black[i / 4 < 1500 * width ? 'above' : 'below']++;
     if (most - least < 40) continue;
     const [col, row] = [(i / 4) % width, Math.floor(i / 4 / width)];
     [cols[0], cols[1], rows[0], rows[1]] = [Math.min(cols[0], col), Math.max(cols[1], col), Math.min(rows[0], row), Math.max(rows[1], row)];
@@ -26,5 +26,6 @@ doorTest('the picture of a finished tower is upright, shaded, at an angle and nu
   assert.ok(high > 1.5 * wide, `${wide} × ${high}`);
   // Three sides are seen, each in its light, and the lid is a little of it.
   assert.ok([...tones.values()].filter((count) => count > 0.03 * wide * high).length >= 3, `${[...tones].filter(([, count]) => count > 1000)}`);
-  assert.ok(black > 100, 'a number');
+  assert.ok(black.above > 100, 'a number');
+  assert.ok(black.below > 1000, 'how it is joined');
 }, { drawn: true });

@@ -55,7 +55,7 @@ export function meshFitPanel(session, meshFit, stage, heights) {
     rulings: ofSurface(async (surface, { unit }) => rulings((await meshFit.rulings(surface)).lines, unit)),
     patches: ofSurface(async (surface, _, tell) => patchesOfMesh(surface, await meshFit.unrolled(surface, tell))),
     photo: ofSurface((_, mesh) => photoOfMesh(mesh)),
-    sheet: ofSurface(async (surface, { unit }, tell) => sheetOfMesh(unit ?? 'units', await meshFit.unrolled(surface, tell), surface)),
+    sheet: ofSurface(async (surface, { unit }, tell) => sheetOfMesh(unit ?? 'units', await meshFit.unrolled(surface, tell))),
   };
   /** @type {Subject} */
   const whole = {

@@ -3,7 +3,7 @@ import { element, make, makeButton, SETTLING_MS } from '../dom.js';
 import { between, fieldsOf } from '../fields.js';
 import { number } from '../format.js';
 import { keep, kept } from '../kept.js';
-import { assemblyModel, drawingImage, MAX_SIDE_MM, MIN_SIDE_MM, MM_PER_UNIT, sheetFigures, sheetsInWords, suggestedSide, trueSide } from '../pattern.js';
+import { assemblyOf, buildSteps, drawingImage, MAX_SIDE_MM, MIN_SIDE_MM, MM_PER_UNIT, sheetFigures, sheetsInWords, suggestedSide, trueSide } from '../pattern.js';
 import { hasCode, plainMessage } from '../error-messages.js';
 import { SHEET_WORDS } from '../messages.js';
 import { edgeAt, parsePairs, togglePair } from '../sheet-edges.js';
@@ -43,6 +43,8 @@ const REMEMBERED = /** @type {readonly (keyof typeof lastOptions)[]} */ (Object.
 const lastSizes = new Map();
 /** Length of a piece below which it can hardly be held, folded and glued, in millimetres. */
 const MIN_HANDY_PIECE_MM = 10;
+/** Number of joints above which a model takes more than an evening. */
+const MAX_EASY_JOINTS = 100;
 /** Maximum number of pages that are printed without a question. */
 const MAX_EXPECTED_PAGES = 12;
 
@@ -139,6 +141,12 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
   };
   setMissing('');
 
+  /** Takes away what is said of the last drawing. */
+  const clear = () => {
+    element('save-title', HTMLElement).textContent = SHEET_WORDS.title;
+    pageWarning.hidden = true;
+    about.replaceChildren();
+  };
   /** Shows the size of the finished surface and the number of pages. @param {Drawing} finished */
   const showSize = (finished) => {
     const { summary } = finished;
@@ -146,7 +154,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
     const stock = paper();
     const pages = stock === '' ? 1 : summary[stock];
     element('save-title', HTMLElement).textContent = SHEET_WORDS.headline(number(side(), 4), pages, summary.seams, finished.sheets.length > 1 ? number(smallest, 2) : undefined);
-    const warnings = [...(pages > MAX_EXPECTED_PAGES ? [SHEET_WORDS.manyPages(pages)] : []), ...(smallest < MIN_HANDY_PIECE_MM ? [SHEET_WORDS.small(number(smallest, 2))] : [])];
+    const warnings = [...(pages > MAX_EXPECTED_PAGES ? [SHEET_WORDS.manyPages(pages)] : []), ...(smallest < MIN_HANDY_PIECE_MM ? [SHEET_WORDS.small(number(smallest, 2))] : summary.seams > MAX_EASY_JOINTS ? [SHEET_WORDS.long(summary.seams)] : [])];
     pageWarning.hidden = warnings.length === 0;
     pageWarning.textContent = warnings.join(' ');
   };
@@ -159,9 +167,8 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
       // The fault stands at its field, and nothing is drawn any more.
       setMissing('');
       preview.setAttribute('aria-busy', 'false');
-      element('save-title', HTMLElement).textContent = SHEET_WORDS.title;
       status.textContent = '';
-      pageWarning.hidden = true;
+      clear();
       return offer.renew();
     }
     lastSizes.set(name, { side: side(), unit: fields.text('sheet-unit') });
@@ -189,11 +196,11 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
       });
       preview.replaceChildren(image);
       status.textContent = sheetsInWords(finished);
-      about.replaceChildren(figures(sheetFigures(finished)));
+      about.replaceChildren(figures(sheetFigures(finished)), make('ol', 'small', ...buildSteps(finished).map((step) => make('li', '', step))));
     } catch (error) {
       if (requested !== drawing) return;
       preview.replaceChildren();
-      about.replaceChildren();
+      clear();
       const reason = plainMessage(error);
       status.textContent = hasCode(error, 'CURVED_FOLD') ? SHEET_WORDS.curvedFold : SHEET_WORDS.uncut(reason);
       failed = true;
@@ -275,8 +282,8 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
         write: async (worker) => worker.writePdf(await drawing, { stock: paper() || undefined, title: stem }) },
       { value: 'svg', name: 'SVG', words: SHEET_WORDS.svg, type: 'image/svg+xml', write: async (worker) => worker.writeSvg(await drawing, { title: stem }) },
       { value: 'dxf', name: 'DXF', words: SHEET_WORDS.dxf, type: 'image/vnd.dxf', write: async (worker) => worker.writeDxf(await drawing) },
-      { value: 'png', name: 'PNG', words: SHEET_WORDS.png, type: 'image/png', write: async () => (await import('../surface/built-picture.js')).builtPicture(assemblyModel(await drawing), up) },
-      { value: 'glb', name: 'GLB', words: SHEET_WORDS.glb, type: 'model/gltf-binary', write: async () => assemblyModel(await drawing) },
+      { value: 'png', name: 'PNG', words: SHEET_WORDS.png, type: 'image/png', write: async () => (await import('../surface/built-picture.js')).builtPicture(await drawing, up) },
+      { value: 'glb', name: 'GLB', words: SHEET_WORDS.glb, type: 'model/gltf-binary', write: async () => assemblyOf(await drawing).model },
     ],
   });
   void draw();

@@ -1,5 +1,5 @@
-/** Draws a picture of an assembled pattern at an angle: its sheets in their colours, with their numbers. */
-import { readAssemblyMesh } from './assembly-mesh.js';
+/** Draws a pattern put together, at an angle: its sheets in their colours, with their numbers, above the steps in which they are joined. */
+import { assemblyOf, buildSteps, sheetsInWords } from '../pattern.js';
 import { CREASE_COLOUR, patchColour } from './colours.js';
 import { PAPER_LOOKS, SceneView } from './scene.js';
 import { borderEdges, boxOf } from './triangles.js';
@@ -15,12 +15,12 @@ const NUMBER_PLACES = 40;
 
 /**
  * Draws a pattern's assembly.
- * @param {Uint8Array} model the assembly, a GLB file
+ * @param {Drawing} drawing
  * @param {'y' | 'z'} up the axis that points upwards
  * @returns {Promise<Blob>} a PNG
  */
-export async function builtPicture(model, up) {
-  const { positions, triangles, sheets } = readAssemblyMesh(model);
+export async function builtPicture(drawing, up) {
+  const { positions, triangles, sheets } = assemblyOf(drawing);
   const scene = await SceneView.create(document.createElement('canvas'), PICTURE_SIZE);
   scene.setLook(PAPER_LOOKS[up]);
   const borders = borderEdges(triangles).map((ends) => ({ points: ends.map((vertex) => /** @type {Vector} */ ([positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]])), colour: CREASE_COLOUR, width: LINE_WIDTH_PIXELS }));
@@ -29,7 +29,8 @@ export async function builtPicture(model, up) {
   scene.setLines(0, borders);
   scene.look();
   scene.draw();
-  const picture = new OffscreenCanvas(PICTURE_SIZE.width, PICTURE_SIZE.height);
+  const lines = [sheetsInWords(drawing), ...buildSteps(drawing).map((step, i) => `${i + 1}. ${step}`)].flatMap((text) => text.match(/.{1,110}( |$)/g) ?? []);
+  const picture = new OffscreenCanvas(PICTURE_SIZE.width, PICTURE_SIZE.height + (lines.length + 1) * NUMBER_HEIGHT_PIXELS);
   const context = picture.getContext('2d');
   if (!context) throw new Error('this browser draws no pictures');
   context.fillStyle = 'white';
@@ -46,6 +47,8 @@ export async function builtPicture(model, up) {
     context.fillText(String(sheet + 1), ...place);
   }
   scene.dispose();
+  Object.assign(context, { font: `${0.75 * NUMBER_HEIGHT_PIXELS}px Helvetica, Arial, sans-serif`, textAlign: 'left' });
+  lines.forEach((line, i) => context.fillText(line, NUMBER_HEIGHT_PIXELS, PICTURE_SIZE.height + (i + 0.75) * NUMBER_HEIGHT_PIXELS));
   return picture.convertToBlob({ type: 'image/png' });
 }
 

@@ -22,6 +22,7 @@ const CREASE_MARGIN_CELLS = 3;
  */
 export function totalGaussianCurvature({ rows, cols, labels, spacing }, { gaussian }) {
   const step = Math.ceil(labels.length / MAX_SAMPLED_VERTICES);
+  const around = [-1, 0, 1].flatMap((down) => [-1, 0, 1].map((right) => CREASE_MARGIN_CELLS * (down * cols + right)));
   /** @type {number[]} */
   const found = [];
   for (let row = CREASE_MARGIN_CELLS; row < rows - CREASE_MARGIN_CELLS; row++) {
@@ -29,10 +30,7 @@ export function totalGaussianCurvature({ rows, cols, labels, spacing }, { gaussi
       const label = labels[i];
       const curvature = gaussian[i];
       if (label < 0 || !(Math.abs(curvature) < Infinity)) continue;
-      const [up, down] = [i - CREASE_MARGIN_CELLS * cols, i + CREASE_MARGIN_CELLS * cols];
-      if (labels[i - CREASE_MARGIN_CELLS] !== label || labels[i + CREASE_MARGIN_CELLS] !== label || labels[up] !== label || labels[down] !== label) continue;
-      if (labels[up - CREASE_MARGIN_CELLS] !== label || labels[up + CREASE_MARGIN_CELLS] !== label || labels[down - CREASE_MARGIN_CELLS] !== label || labels[down + CREASE_MARGIN_CELLS] !== label) continue;
-      found.push(Math.abs(curvature));
+      if (around.every((offset) => labels[i + offset] === label)) found.push(Math.abs(curvature));
     }
   }
   const kept = Float64Array.from(found).sort().subarray(0, Math.floor(KEPT_VERTEX_SHARE * found.length));

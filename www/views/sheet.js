@@ -35,11 +35,10 @@ export function sheetOfHeights(unit, { picture, report: { distortion, crossings,
  * The view of a mesh laid flat.
  * @param {string} unit
  * @param {MeshUnrolling} unrolled
- * @param {Mesh} mesh
  * @returns {Promise<ViewContent>}
  */
-export async function sheetOfMesh(unit, { triangles, places, report: { sheets, strain, seamGap, missing } }, { positions }) {
-  const picture = await callWorker('meshStrainImage', { triangles, places, positions });
+export async function sheetOfMesh(unit, { triangles, places, stretches, report: { sheets, strain, seamGap, missing } }) {
+  const picture = await callWorker('sheetStrainImage', triangles, places, stretches);
   return sheet(picture, unit, sheets === 1 ? 'One sheet.' : `${count(sheets)} sheets.`, [
     ['Largest strain', percent(strain)],
     ['Seam gap of folds', `${numberAgainst(seamGap, picture.extent.width)} ${unit}`],

@@ -161,6 +161,12 @@ impl Wanted {
             let picture = write_assembly_svg(sheets)?;
             set(&whole, "model", &Uint8Array::from(&model[..]))?;
             set(&whole, "picture", &Uint8Array::from(&picture[..]))?;
+            let all = Joined::of(sheets);
+            let positions = Float64Array::from(all.positions.as_flattened());
+            set(&whole, "positions", &positions)?;
+            let triangles = Uint32Array::from(all.triangles.as_flattened());
+            set(&whole, "triangles", &triangles)?;
+            set(&whole, "sheets", &Uint32Array::from(&all.sheets[..]))?;
             set(&value, "assembly", &whole)?;
         }
         Ok(value)
@@ -344,6 +350,9 @@ struct UnrollingOutput<'a> {
     /// Number of the sheet of each vertex, from 0.
     #[serde(with = "preserve")]
     sheets: Uint32Array,
+    /// The two singular values of each triangle's map from the mesh to the plane, the larger one first.
+    #[serde(with = "preserve")]
+    stretches: Float64Array,
     /// The patches of the mesh, that with the largest area first.
     patches: &'a [Patch],
     /// The creases between the patches.
@@ -374,29 +383,28 @@ pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted = Wanted::of(&mesh, &options)?;
     let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
     let (patches, found) = sheets_of(&mesh, &wanted)?;
-    let (mut positions, mut places, mut triangles, mut sheets) =
-        (Vec::new(), Vec::new(), Vec::<[u32; 3]>::new(), Vec::new());
-    let mut right = 0.0;
-    for (number, sheet) in (0u32..).zip(&found.sheets) {
-        let first = positions.len() as u32;
+    let all = Joined::of(&found.sheets);
+    let (mut places, mut right) = (Vec::new(), 0.0);
+    for sheet in &found.sheets {
         let xs = sheet.faces.flat.iter().map(|[x, _]| *x);
         let (low, high) = (
             xs.clone().fold(f64::INFINITY, f64::min),
             xs.fold(f64::NEG_INFINITY, f64::max),
         );
-        positions.extend(&sheet.faces.built);
         places.extend(sheet.faces.flat.iter().map(|[x, y]| [x - low + right, *y]));
-        triangles.extend(sheet.faces.triangles.iter().map(|t| t.map(|v| v + first)));
-        sheets.resize(positions.len(), number);
         right += high - low + sheet.spacing;
     }
+    let stretches: Vec<_> = (found.sheets.iter())
+        .flat_map(|sheet| sheet.faces.stretches())
+        .collect();
     let most = |of: fn(&Sheet) -> f64| found.sheets.iter().map(of).fold(0.0, f64::max);
     Ok(to_value(&UnrollingOutput {
         labels: labels_of(&patches),
-        positions: positions.as_flattened().into(),
+        positions: all.positions.as_flattened().into(),
         places: places.as_flattened().into(),
-        triangles: triangles.as_flattened().into(),
-        sheets: sheets.as_slice().into(),
+        triangles: all.triangles.as_flattened().into(),
+        sheets: all.sheets.as_slice().into(),
+        stretches: stretches.as_flattened().into(),
         patches: patches.patches(),
         creases: patches.creases(),
         report: UnrollingReport {
@@ -413,6 +421,31 @@ pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
 fn labels_of(patches: &MeshPatches) -> Int32Array {
     let labels: Vec<i32> = patches.labels().iter().map(|label| *label as i32).collect();
     labels.as_slice().into()
+}
+
+/// The triangles of all sheets as one mesh, where they are on the surface.
+struct Joined {
+    positions: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+    /// Number of the sheet of each vertex.
+    sheets: Vec<u32>,
+}
+
+impl Joined {
+    fn of(all: &[Sheet]) -> Self {
+        let (mut positions, mut triangles, mut sheets) = (Vec::new(), Vec::new(), Vec::new());
+        for (number, Sheet { faces, .. }) in (0u32..).zip(all) {
+            let first = positions.len() as u32;
+            positions.extend(&faces.built);
+            triangles.extend(faces.triangles.iter().map(|t| t.map(|v| v + first)));
+            sheets.resize(positions.len(), number);
+        }
+        Joined {
+            positions,
+            triangles,
+            sheets,
+        }
+    }
 }
 
 fn sheets_of(mesh: &Mesh, wanted: &Wanted) -> Result<(MeshPatches, Pattern)> {

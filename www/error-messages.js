@@ -18,6 +18,7 @@ const COPY_AGAIN = 'copy, download or export it again';
  * @returns {string} a sentence without its full stop
  */
 export function plainMessage(error) {
+  if (hasCode(error, 'NO_INTERIOR')) return 'there are too few heights beside each other for a surface';
   const message = error instanceof Error ? error.message : String(error);
   const [, format, reason] = /^cannot read this as (?:an? )?(.+?): (.*)$/s.exec(message) ?? [];
   if (format) {

@@ -86,7 +86,7 @@ sharedDoorTest('a value that means no data is given by hand, and stands in the a
 sharedDoorTest('heights along one line are refused with the reason', async (page) => {
   await open(page, 'line.npy', npy(WIDTH, plane.map((value, i) => (i < WIDTH ? value : NaN))));
   await run(page);
-  assert.match(await page.getByRole('alert').innerText(), /no interior vertex/);
+  assert.match(await page.getByRole('alert').innerText(), /too few heights beside each other/);
   assert.match(await page.locator('#verdict').innerText(), /not solved/);
 });
 

@@ -12,9 +12,7 @@ const COLMAP_CAMERAS = /^cameras\b[^.]*\.bin$/i;
 const MESH_FORMATS = ['obj', 'ply', 'stl', 'gltf', '3mf', 'off', 'xyz'];
 
 /** A file's name without its ending. @param {{ name: string }} file */
-export function stemOf({ name }) {
-  return name.replace(/\.[^.]*$/, '');
-}
+export const stemOf = ({ name }) => name.replace(/\.[^.]*$/, '');
 
 /** The ending of a file's name in lower case. @param {{ name: string }} file */
 export const endingOf = ({ name }) => name.toLowerCase().split('.').pop();
@@ -23,14 +21,10 @@ export const endingOf = ({ name }) => name.toLowerCase().split('.').pop();
 export const isPdf = ({ name, type }) => /\.pdf$/i.test(name) || type === 'application/pdf';
 
 /** Whether a file is a mesh. @param {string} name */
-export function isMesh(name) {
-  return MESH_ENDING.test(name);
-}
+export const isMesh = (name) => MESH_ENDING.test(name);
 
 /** Whether the name of a format is that of a mesh. @param {string} [format] */
-export function isMeshFormat(format) {
-  return format !== undefined && MESH_FORMATS.includes(format);
-}
+export const isMeshFormat = (format) => format !== undefined && MESH_FORMATS.includes(format);
 
 /** @typedef {'mesh' | 'heights' | 'picture' | 'camera'} FileKind */
 

@@ -176,6 +176,8 @@ export const SHEET_WORDS = {
   long: (joints) => `Long to build: ${count(joints)} joints. Simpler pieces have fewer.`,
   /** @param {number} pages */
   manyPages: (pages) => `These are ${count(pages)} pages. Is the unit of the file right? A smaller longer side needs fewer.`,
+  /** @param {string} side */
+  fit: (side) => `Each sheet on one page: ${side} mm`,
   upperSide: 'The surface is the upper side of the metal.',
   /** @param {string} thickness */
   blank: (thickness) => `A solid of sheet metal, ${thickness} mm thick: this is the blank that it is bent from.`,

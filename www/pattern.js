@@ -115,7 +115,7 @@ export async function drawingImage(api, drawing) {
   const image = new Image();
   // On paper lines are a fifth of a millimetre wide: too thin to be seen where a large drawing is shown small.
   const width = Math.max(drawing.width, drawing.height) / LINES_ACROSS;
-  const svg = new TextDecoder().decode(await api.writeSvg(drawing)).replace(/stroke-width="[^"]*"/g, `stroke-width="${width}"`)
+  const svg = new TextDecoder().decode(await api.writeSvg(drawing)).replace(/(?<=<svg[^>]*>)/, '<rect width="100%" height="100%" fill="#fff"/>').replace(/stroke-width="[^"]*"/g, `stroke-width="${width}"`)
     .replace(/stroke-dasharray="([^"]*)"/g, (_, dashes) => `stroke-dasharray="${dashes.split(' ').map((/** @type {string} */ dash) => 3 * Number(dash) * width).join(' ')}"`);
   const address = URL.createObjectURL(new Blob([svg], { type: 'image/svg+xml' }));
   try {

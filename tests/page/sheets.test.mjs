@@ -145,6 +145,20 @@ doorTest('a solid of sheet metal is cut as the blank that it is bent from', asyn
   assert.equal((await shown.jsonValue()).times, 0);
 });
 
+doorTest('a sheet that takes several pages is made to fit one', async (page) => {
+  await openWhole(page, 'box.obj', obj({ points, triangles }));
+  await page.locator('#end-sheets').click();
+  const [title, fit] = [page.locator('#save-title'), page.getByRole('button', { name: /^Each sheet on one page: / })];
+  await title.filter({ hasText: /60 mm, 1 page,/ }).waitFor();
+  assert.equal(await fit.isVisible(), false);
+  await page.getByLabel('Longer side when finished').fill('300');
+  await fit.click();
+  await title.filter({ hasText: /, 1 page,/ }).filter({ hasNotText: '300 mm' }).waitFor();
+  await fit.waitFor({ state: 'hidden' });
+  const side = Number(await page.getByLabel('Longer side when finished').inputValue());
+  assert.ok(side > 60 && side < 150, `${side}`);
+});
+
 doorTest('what is chosen is there on the next visit, and a kerf makes sheets larger by its width', async (page) => {
   await openWhole(page, 'box.obj', obj({ points, triangles }));
   const image = page.locator('.preview[aria-busy="false"] img');

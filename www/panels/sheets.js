@@ -6,6 +6,7 @@ import { keep, kept } from '../kept.js';
 import { assemblyOf, buildSteps, drawingImage, MAX_SIDE_MM, MIN_SIDE_MM, MM_PER_UNIT, sheetFigures, sheetsInWords, suggestedSide, trueSide } from '../pattern.js';
 import { hasCode, plainMessage } from '../error-messages.js';
 import { SHEET_WORDS } from '../messages.js';
+import { PAPERS } from '../page/paper.js';
 import { edgeAt, parsePairs, togglePair } from '../sheet-edges.js';
 import { figures } from '../views/legend.js';
 import { offerToSave } from './save-dialog.js';
@@ -45,6 +46,8 @@ const lastSizes = new Map();
 const MIN_HANDY_PIECE_MM = 10;
 /** Number of joints above which a model takes more than an evening. */
 const MAX_EASY_JOINTS = 100;
+/** Blank margin of the pages of a format, in millimetres, as the library leaves it. */
+const PAGE_MARGIN_MM = 10;
 /** Maximum number of pages that are printed without a question. */
 const MAX_EXPECTED_PAGES = 12;
 
@@ -129,6 +132,10 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
     offer.renew();
   });
   const again = Object.assign(makeButton('', () => draw(), SHEET_WORDS.cut), { hidden: true });
+  const fit = Object.assign(makeButton('', () => {
+    fields.set('sheet-side', fit.value);
+    fields.control('sheet-side').dispatchEvent(new Event('input', { bubbles: true }));
+  }, ''), { hidden: true });
   const about = make('div', '');
   const pageWarning = make('p', 'guess small');
   pageWarning.hidden = true;
@@ -144,7 +151,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
   /** Takes away what is said of the last drawing. */
   const clear = () => {
     element('save-title', HTMLElement).textContent = SHEET_WORDS.title;
-    pageWarning.hidden = true;
+    pageWarning.hidden = fit.hidden = true;
     about.replaceChildren();
   };
   /** Shows the size of the finished surface and the number of pages. @param {Drawing} finished */
@@ -154,6 +161,13 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
     const stock = paper();
     const pages = stock === '' ? 1 : summary[stock];
     element('save-title', HTMLElement).textContent = SHEET_WORDS.headline(number(side(), 4), pages, summary.seams, finished.sheets.length > 1 ? number(smallest, 2) : undefined);
+    // Tabs stay as deep as they are.
+    const beside = cutOptions().tabs ? 2 * fields.number('sheet-tab-depth') : 0;
+    const room = stock === '' ? [] : PAPERS[stock].map((length) => length - 2 * PAGE_MARGIN_MM - beside);
+    const shares = finished.sheets.map(({ bounds: [[left, bottom], [right, top]] }) => [right - left, top - bottom].sort((a, b) => a - b).map((length, k) => room[k] / (length - beside))).flat();
+    const fitting = Math.floor(10 * side() * Math.min(...shares)) / 10;
+    fit.hidden = !(pages > finished.sheets.length && fitting >= MIN_SIDE_MM && fitting < side());
+    [fit.value, fit.textContent] = [String(fitting), SHEET_WORDS.fit(number(fitting, 4))];
     const warnings = [...(pages > MAX_EXPECTED_PAGES ? [SHEET_WORDS.manyPages(pages)] : []), ...(smallest < MIN_HANDY_PIECE_MM ? [SHEET_WORDS.small(number(smallest, 2))] : summary.seams > MAX_EASY_JOINTS ? [SHEET_WORDS.long(summary.seams)] : [])];
     pageWarning.hidden = warnings.length === 0;
     pageWarning.textContent = warnings.join(' ');
@@ -245,6 +259,7 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
     status,
     make('p', 'muted small', SHEET_WORDS.legend),
     pageWarning,
+    fit,
     ...(note ? [make('p', 'small', note)] : []),
     waitingElement,
     again,

@@ -205,15 +205,13 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
      */
     async openExample(name, options) {
       examples.set('example', name in EXAMPLE_FIELDS.example.options ? name : 'roof');
-      for (const option of /** @type {const} */ (['size', 'noise'])) examples.set(option, nearestOption(EXAMPLE_FIELDS[option].options, options[option]));
+      for (const option of /** @type {const} */ (['size', 'noise'])) {
+        const nearest = Object.keys(EXAMPLE_FIELDS[option].options).map(Number).sort((a, b) => Math.abs(a - options[option]) - Math.abs(b - options[option]))[0];
+        examples.set(option, nearest);
+      }
       await openChosenExample();
     },
     openFiles,
     reinterpretFile,
   };
-}
-
-/** The option of a menu that is nearest to a number. @param {Record<string, string>} options @param {number} value */
-function nearestOption(options, value) {
-  return Object.keys(options).map(Number).sort((a, b) => Math.abs(a - value) - Math.abs(b - value))[0];
 }

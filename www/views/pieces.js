@@ -24,14 +24,7 @@ export async function flat(api, analyses, result, tell) {
   const picture = imagePicture(await drawingImage(api, drawing), sheetsInWords(drawing));
   const isFolded = drawing.sheets.some(({ folds }) => folds.length > 0);
   return {
-    flat: {
-      ...picture,
-      paint: (context, ratio) => {
-        context.fillStyle = '#fff';
-        context.fillRect(0, 0, context.canvas.width, context.canvas.height);
-        picture.paint(context, ratio);
-      },
-    },
+    flat: picture,
     said: `In one piece it would stretch; cut along its creases it lies flat. ${sheetsInWords(drawing)}`,
     about: [
       ...(isFolded ? [make('p', 'keys', key(toCss(CREASE_COLOUR), 'cut'), key(toCss(FOLD_COLOURS.mountain), 'folded to a ridge'), key(toCss(FOLD_COLOURS.valley), 'folded to a valley'))] : []),

@@ -191,19 +191,14 @@ pub(super) fn find_sheet(
         view,
     };
     let (mut sheet, mut figures) =
-        progress::part(0.6, || problem.with_lines(coarse.clone(), &starts, &print))?;
+        progress::part(0.6, || problem.with_lines(coarse, &starts, &print))?;
     let mut model = PageModel::Sheet;
     if traces.bent.is_some() {
         model = PageModel::Cylinder;
     } else if figures.lines > MAX_FIRM_LINE_MISFIT {
         let mut crumpled = problem.clone();
         crumpled.weights = CRUMPLED_PAPER_WEIGHTS;
-        crumpled.lines.clear();
-        crumpled.folds.clear();
-        let refined = crumpled.refined(coarse.clone(), &COARSE_GRID_COLS);
-        let found = progress::part(1.0, || {
-            refined.and_then(|coarse| crumpled.with_lines(coarse, &starts, &print))
-        });
+        let found = progress::part(1.0, || crumpled.with_lines(sheet.clone(), &starts, &print));
         if let Some(found) = found {
             (sheet, figures) = found;
             (problem, model) = (crumpled, PageModel::SoftSheet);

@@ -66,8 +66,7 @@ pub enum PageModel {
     SoftSheet,
 }
 
-/// Displacement that is not exceeded in 95 of 100 cases where the outline is doubtful, in % of a page's width: a page of the
-/// ground's colour may have another one. Chosen by `benches/page.md`, Expected error.
+/// Displacement not exceeded in 95 of 100 cases where the outline is doubtful, in % of a page's width (`benches/page.md`, Expected error).
 const DOUBTFUL_OUTLINE_ERROR_BOUND: f64 = 12.0;
 
 /// Verdict on a page that was found in a photo, with the measures of its fit.

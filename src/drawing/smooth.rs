@@ -10,6 +10,9 @@ use crate::math::planar::{Point2, distance_to_segment};
 /// Share of the tolerance within which a line is simplified before curves are fitted to it.
 const MAX_SIMPLIFICATION_SHARE: f64 = 0.25;
 
+/// Number of parts of each straight piece at whose ends a curve's distance from it is measured.
+const MEASURED_PARTS: u32 = 4;
+
 /// Number of times that the parameters of points on a fitted curve are moved to the nearest points of the curve.
 const REPARAMETRISATION_PASSES: usize = 3;
 
@@ -55,9 +58,18 @@ pub(super) fn curve_through(line: &[[f64; 2]], tolerance: f64) -> Curve {
                 )
             }),
         ];
-        fit(section, headings, tolerance, &mut curve);
+        fit(&divided(section), headings, tolerance, &mut curve);
     }
     curve
+}
+
+/// The points of a line, and others between them: where its pieces are long, a curve may be far from them though it is near their ends.
+fn divided(points: &[Point2]) -> Vec<Point2> {
+    let share = |part: u32| f64::from(part) / f64::from(MEASURED_PARTS);
+    let pieces = points.windows(2);
+    let inner =
+        pieces.flat_map(|p| (0..MEASURED_PARTS).map(move |k| p[0] + (p[1] - p[0]) * share(k)));
+    inner.chain(points.last().copied()).collect()
 }
 
 /// Angle by which a line turns at the second of three points, in radians.
@@ -217,6 +229,17 @@ mod tests {
         assert!(curve.pieces().count() < 30, "{}", curve.pieces().count());
         for [x, y] in curve.points(0.01) {
             assert!((y - 3.0 * (0.2 * x).sin()).abs() < 0.15, "{x} {y}");
+        }
+    }
+
+    #[test]
+    fn a_long_side_with_a_bent_end_stays_straight() {
+        let line = [[0.0, 0.0], [97.0, 0.0], [99.0, 0.2], [100.0, 0.7]];
+        for line in [line.to_vec(), line.into_iter().rev().collect()] {
+            for [x, y] in curve_through(&line, 0.1).points(0.001) {
+                let away = if x < 97.0 { y.abs() } else { 0.0 };
+                assert!(away < 0.2 && (-0.2..0.9).contains(&y), "{x} {y}");
+            }
         }
     }
 

@@ -9,9 +9,11 @@ use crate::shape::patches::chains::chains;
 use crate::shape::patches::crease::smooth_polyline;
 
 /// Minimum cosine of the angle by which a triangle may turn when a corner of it is moved onto a smooth crease.
+/// `benches/patterns.md` has what others give.
 const MIN_TURN_COSINE: f64 = 0.5;
 
 /// Median distance of a line's points from cubics through their neighbours, in edge lengths, up to which the line is smooth.
+/// `benches/patterns.md` has what others give.
 const MAX_SMOOTH_DISTANCE_LENGTHS: f64 = 0.05;
 
 /// Maximum number of times that the way of a vertex onto a smooth crease is halved. `benches/patterns.md` has what others give.

@@ -7,17 +7,9 @@ use crate::progress;
 use crate::scene::half_edges::next_half_edge;
 use crate::unroll::flat_triangle::Point;
 
-/// Maximum strain of a sheet after a crease was closed, as a share of the limit, unless the sheets on either side
-/// of the crease had more strain before. `benches/patterns.md` has what others give.
-const CREASE_STRAIN_SHARE: f64 = 0.1;
-
 /// Maximum strain of the triangles along a closed seam, as a multiple of the limit for the sheet.
 /// `benches/patterns.md` has what others give.
 const MAX_SEAM_STRAIN_FACTOR: f64 = 2.0;
-
-/// Minimum number of nodes of each half of a seam that is divided because it cannot be closed as a whole.
-/// `benches/patterns.md` has what others give.
-const MIN_HALVED_SEAM_NODES: usize = 12;
 
 /// Maximum squared gap of a cut, as a multiple of the area times the squared strain that its sheet may have, at which it
 /// is tried to close the cut: where two sides are pulled together by a distance, a strip about as wide is strained. Of the
@@ -64,57 +56,44 @@ impl Sheets<'_> {
         self.seams.divide(self.body, seam, at)
     }
 
-    /// Closes cuts again where the sheets stay valid: those inside of patches before creases, the longest first. A cut that
-    /// cannot be closed as a whole is halved, and each half is tried.
+    /// Closes cuts again where the sheets stay valid: those inside of patches before creases, the longest first.
     pub(super) fn close_cuts(&mut self) -> Result<()> {
         // Along one or two edges nothing says how two sheets lie.
         let is_open = |seam: &usize| !self.whole[*seam] && self.seams.all[*seam].sides.len() > 2;
         let mut pending: Vec<usize> = (0..self.seams.all.len()).filter(is_open).collect();
-        let mut tried = 0.0;
-        loop {
-            // The last one is the next.
-            pending.sort_by(|a, b| {
-                let [a, b] = [a, b].map(|seam| &self.seams.all[*seam]);
-                a.smooth.cmp(&b.smooth).then(a.length.total_cmp(&b.length))
-            });
-            let Some(seam) = pending.pop() else {
-                return Ok(());
-            };
-            tried += 1.0;
-            let end = tried / (tried + pending.len() as f64);
-            if self.whole[seam] || progress::part(end, || self.close(seam))? {
-                continue;
-            }
-            let edges = self.seams.all[seam].sides.len();
-            if edges >= 2 * MIN_HALVED_SEAM_NODES && self.seams.all[seam].smooth {
-                pending.extend([seam, self.divide(seam, edges / 2)]);
+        pending.sort_by(|a, b| {
+            let [a, b] = [a, b].map(|seam| &self.seams.all[*seam]);
+            b.smooth.cmp(&a.smooth).then(b.length.total_cmp(&a.length))
+        });
+        let count = pending.len() as f64;
+        for (tried, seam) in (1u32..).zip(pending) {
+            if !self.whole[seam] {
+                progress::part(f64::from(tried) / count, || self.close(seam))?;
             }
         }
+        Ok(())
     }
 
-    /// Tries to close one cut, that is to join its two sides. Returns whether the sheet is valid then.
-    fn close(&mut self, seam: usize) -> Result<bool> {
+    /// Tries to close one cut, that is to join its two sides.
+    fn close(&mut self, seam: usize) -> Result<()> {
         let [a, b] = self.seams.all[seam]
             .parts
             .map(|part| self.of[part as usize]);
-        let Some(found) = self.closed(seam, [a, b])? else {
-            return Ok(false);
-        };
-        self.all[a.max(b)] = None;
-        self.put(a.min(b), found);
-        Ok(true)
+        if let Some(found) = self.closed(seam, [a, b])? {
+            self.all[a.max(b)] = None;
+            self.put(a.min(b), found);
+        }
+        Ok(())
     }
 
     fn closed(&self, seam: usize, numbers: [usize; 2]) -> Result<Option<Joined>> {
         let both = SheetPair::new(self, seam, numbers);
         let limit = self.limits.strain;
-        // A crease is closed only if that adds hardly any strain: one whose two sides fit only with strain cannot be folded.
+        // A crease is closed only if that adds no strain: one whose two sides fit only with strain cannot be folded.
         let strains = both.all().map(|sheet| sheet.laid.strain);
         let most = match self.seams.all[seam].smooth {
             true => limit,
-            false => strains
-                .fold(CREASE_STRAIN_SHARE * limit, f64::max)
-                .min(limit),
+            false => strains.fold(0.0, f64::max).min(limit),
         };
         let left = |sheet: &Joined| sheet.laid.area * most.powi(2) - sheet.laid.energy();
         let energy_left: f64 = both.all().map(left).sum();

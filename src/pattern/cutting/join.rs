@@ -12,6 +12,7 @@ use crate::unroll::arap_mesh::StoppingCriteria;
 use crate::unroll::flat_triangle::Point;
 
 /// Seam gap below which a seam counts as closed, because it is finer than the mesh's resolution; in edge lengths of the mesh.
+/// `benches/patterns.md` has what others give.
 pub(super) const NEGLIGIBLE_GAP_LENGTHS: f64 = 0.25;
 
 /// Limits that a flat sheet of a mesh has to keep: seam gap, strain, and when the solver stops.
@@ -390,7 +391,7 @@ impl<'a> SheetPair<'a> {
             _ => {
                 let laid = match how {
                     Trial::Join => rough.relaxed(body, limits.trial())?,
-                    Trial::Close => rough.closed(body, limits.strain)?,
+                    Trial::Close => rough.closed(body)?,
                 };
                 if !limits.allow(&laid) {
                     return Ok(None);

@@ -9,13 +9,15 @@ use super::seams::{Seam, Seams};
 use crate::pattern::Junction;
 
 /// Maximum radius around a point within which the surface's angle is measured, in edge lengths of the mesh.
+/// `benches/patterns.md` has what others give.
 const MAX_ANGLE_RADIUS_LENGTHS: f64 = 20.0;
 
 /// Maximum radius around a point within which the surface's angle is measured, as a share of the shortest seam that
-/// ends there and of the distance to the nearest cut that does not.
+/// ends there and of the distance to the nearest cut that does not. `benches/patterns.md` has what others give.
 const ANGLE_RADIUS_SHARE: f64 = 0.8;
 
 /// Minimum radius around a point at which the surface's angle is measured, in edge lengths of the mesh; nearer to the point the sampling smooths the surface.
+/// `benches/patterns.md` has what others give.
 const MIN_ANGLE_RADIUS_LENGTHS: f64 = 6.0;
 
 /// Radius around a point within which the surface's angle is measured, from the length of the shortest seam that ends there

@@ -1,10 +1,10 @@
-//! Time and quality of patterns of rough scans, as rows of a table.
+//! Time and quality of patterns of examples, rough scans and meshes, as rows of a table.
 //!
 //! ```sh
 //! cargo run --release --bin patterns -- FOLDER [NAME…]
 //! ```
 //!
-//! `FOLDER` has `range.npy` and `bunny.obj`; a name is the beginning of a scan's name. Fitted surfaces are kept in
+//! `FOLDER` has `range.npy` and `bunny.obj`; a name is the beginning of a surface's name. Fitted surfaces are kept in
 //! the folder `fitted` of the system's temporary files.
 
 mod scans;
@@ -18,12 +18,15 @@ use developable::drawing::{Drawing, DrawingOptions};
 use developable::files::meshes::read_mesh;
 use developable::patches::{MeshPatches, PatchOptions, Patches};
 use developable::pattern::{Missing, PatternOptions, Sheet, pattern, pattern_mesh};
-use developable::{Heightfield, Mesh, MeshOptions, Options, fit, fit_mesh};
+use developable::{Example, ExampleOptions, Heightfield, Mesh, MeshOptions, Options, fit, fit_mesh};
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
 /// Weights of the fidelity at which each scan is fitted.
 const LAMBDAS: [f64; 3] = [1e5, 1e6, 1e7];
+
+/// Pixels of a side of each example.
+const EXAMPLE_SIZES: [usize; 2] = [120, 250];
 
 /// Length of the longer side of a drawing's surface, in millimetres.
 const DRAWN_SIZE_MM: f64 = 300.0;
@@ -37,6 +40,22 @@ fn main() -> Outcome<()> {
     let is_wanted =
         |name: &str| wanted.is_empty() || wanted.iter().any(|w| name.starts_with(w.as_str()));
     println!("{HEAD}");
+    for example in Example::ALL {
+        for size in EXAMPLE_SIZES {
+            let name = format!("{} {size}", example.name());
+            if is_wanted(&name) {
+                let surface = kept(&name, || {
+                    let options = ExampleOptions {
+                        size,
+                        ..ExampleOptions::default()
+                    };
+                    let input = example.generate(&options)?.input.to_lattice(None)?;
+                    Ok(fit(&input, &Options::default())?.into_heightfield())
+                })?;
+                heightfield_row(&name, &surface)?;
+            }
+        }
+    }
     for scan in scans::SCANS {
         for lambda in LAMBDAS {
             let name = format!("{} {lambda:.0e}", scan.name);

@@ -16,16 +16,15 @@ pub(super) struct BendAngles {
 }
 
 /// Distance from a crease, in vertices, at which the normals on either side are taken: a crease of a fitted surface is
-/// some vertices wide.
+/// some vertices wide. `benches/patterns.md` has what others give.
 pub(crate) const NORMAL_DISTANCE_VERTICES: usize = 4;
 
 /// Ratio of the default bend angle of a crease to the median over the surface: limits how much of a surface that bends
-/// everywhere is taken for crease. Not tuned by measurements; `tests/native/patches.rs` has the surfaces whose patches it must
-/// find.
+/// everywhere is taken for crease. `benches/patterns.md` has what others give.
 const CREASE_BEND_PER_MEDIAN: f64 = 6.0;
 
 /// Minimum default bend angle of a crease, in radians (two degrees): limits what noise on a flat surface is taken for
-/// crease. Not tuned by measurements; `tests/native/patches.rs` has the surfaces whose patches it must find.
+/// crease. `benches/patterns.md` has what others give.
 const MIN_CREASE_BEND: f64 = 0.035;
 
 impl BendAngles {

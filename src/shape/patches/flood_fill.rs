@@ -9,7 +9,7 @@ use crate::error::{Result, try_filled};
 use crate::heights::heightfield::Heightfield;
 
 /// Ratio of the lower to the higher threshold of the bend angle (hysteresis). Limits how far a crease reaches from the
-/// vertices that bend most. Not tuned by measurements; `tests/native/patches.rs` has the surfaces whose patches it must find.
+/// vertices that bend most. `benches/patterns.md` has what others give.
 const LOW_TO_HIGH_BEND_ANGLE_RATIO: f64 = 0.4;
 
 /// Minimum number of vertices of a region between creases; smaller ones are part of the creases around them.

@@ -1021,7 +1021,7 @@ export type PageDoubt = 'largeError' | 'hiddenPart' | 'crumpled' | 'spread' | 'o
 /**
  * Model of a page's shape, from the plainest to the most general.
  * - `'plane'`: A plane seen in perspective: a homography maps it to the photo.
- * - `'cylinder'`: A cylinder over any curve: a page of which two edges are traced, which is curled in one direction.
+ * - `'cylinder'`: A cylinder over any curve: a page that is curled in one direction.
  * - `'sheet'`: An isometric sheet of any shape, bent without strain: a page that is folded, or bent both ways.
  * - `'softSheet'`: A sheet that is slightly strained: a crumpled page, whose wrinkles are too small to be visible in
  *   its outline.

@@ -11,7 +11,7 @@ use crate::math::planar::{Point2, distance_to_segment};
 const MAX_SIMPLIFICATION_SHARE: f64 = 0.25;
 
 /// Number of parts of each straight piece at whose ends a curve's distance from it is measured.
-const MEASURED_PARTS: u32 = 4;
+const MEASURED_PARTS: u32 = 8;
 
 /// Number of times that the parameters of points on a fitted curve are moved to the nearest points of the curve.
 const REPARAMETRISATION_PASSES: usize = 3;

@@ -1,6 +1,5 @@
 //! Print in a photo, by which a page is known: all print lies on it.
 
-use super::edge_path::AVERAGING_RADIUS;
 use super::morphology::box_mean;
 use super::tracing::Views;
 use crate::math::planar::polygon_contains;
@@ -10,6 +9,9 @@ use crate::math::planar::polygon_contains;
 /// Its row: `benches/page.md`, Constants of the outline.
 const MIN_PRINT_CONTRAST: f32 = 0.1;
 
+/// Half the side, in pixels of the reduced photo, of the square over which the structure tensor is averaged: a few letters.
+const LETTERS_RADIUS: usize = 6;
+
 /// Minimum ratio of the smaller to the larger eigenvalue of the structure tensor at print: letters have strokes of all
 /// directions, edges and folds of one.
 /// Its row: `benches/page.md`, Constants of the outline.
@@ -17,7 +19,6 @@ const MIN_PRINT_ISOTROPY: f32 = 0.2;
 
 /// Minimum smaller eigenvalue of the structure tensor at print, in squared logarithmic colour per pixel: crumpled paper has
 /// less.
-/// Its row: `benches/page.md`, Constants of the outline.
 const MIN_PRINT_ENERGY: f32 = 5e-3;
 
 /// The print in a photo.
@@ -44,8 +45,7 @@ impl Print {
             }
         }
         for entry in &mut tensor {
-            // Over a few letters.
-            box_mean(entry, width, height, AVERAGING_RADIUS);
+            box_mean(entry, width, height, LETTERS_RADIUS);
         }
         let is_among_letters: Vec<bool> = (0..raw.len())
             .map(|i| {

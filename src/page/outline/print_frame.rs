@@ -4,7 +4,6 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::corners::CUT_END_LENGTH_SHARE;
 use super::edge_path::AVERAGING_RADIUS;
 use super::morphology::{box_mean, vertical_mean};
 use super::planes::Planes;
@@ -28,29 +27,33 @@ const TEXTURE_RADIUS: usize = AVERAGING_RADIUS * 2;
 const MIN_TEXTURE: f32 = 0.002;
 
 /// Contrast of an edge that is surely seen, as a multiple of the texture around it.
-/// Its row: `benches/page.md`, Constants of the outline.
 const CLEAR_EDGE_RATIO: f32 = 5.0;
 
 /// Strength, as a share of that of an edge that is surely seen, below which a place lessens the worth of a path.
-/// Its row: `benches/page.md`, Constants of the outline.
 const MIN_EDGE_STRENGTH: f32 = 0.5;
 
 /// Worth that a path loses at each place for each pixel of print beyond it.
-/// Its row: `benches/page.md`, Constants of the outline.
 const PRINT_OUTSIDE_COST: f32 = 0.1;
 
-/// Worth that a path loses by a sideways step of one pixel.
+/// Half the number of rows over which print beyond a path is averaged: about the distance of lines of print.
 /// Its row: `benches/page.md`, Constants of the outline.
+const PRINT_ROWS_RADIUS: usize = 30;
+
+/// Worth that a path loses by a sideways step of one pixel.
 const STEP_COST: f32 = 0.05;
 
 /// Number of paths that are tried on each side of the print.
 const PATHS_PER_SIDE: usize = 4;
 
-/// Length, in pixels, over which an edge's contrast keeps its sign, and half of that over which print beyond a path is averaged.
+/// Length, in pixels, over which an edge's contrast has to keep its sign.
 /// Its row: `benches/page.md`, Constants of the outline.
-const SEGMENT_LENGTH: usize = AVERAGING_RADIUS * 4;
+const SEGMENT_LENGTH: usize = 40;
 
-/// Penalty, from 0 to 1, of an edge that continues with full strength beyond a corner, as joints of tiles and folds do.
+/// Length beyond a corner over which it is measured whether an edge continues, as a share of the edge.
+const BEYOND_CORNER_SHARE: f64 = 0.12;
+
+/// Penalty of an edge that continues with full strength beyond a corner, as do joints of tiles and folds of a page; from 0 to
+/// 1.
 /// Its row: `benches/page.md`, Constants of the outline.
 const BEYOND_CORNER_PENALTY: f64 = 0.8;
 
@@ -211,7 +214,7 @@ impl PrintFrame {
             for i in (0..beyond.len()).rev().filter(|i| i % reach + 1 < reach) {
                 beyond[i] = beyond[i + 1] + f32::from(u8::from(is_print[index(i + 1)]));
             }
-            vertical_mean(&mut beyond, reach, SEGMENT_LENGTH);
+            vertical_mean(&mut beyond, reach, PRINT_ROWS_RADIUS);
             let (strengths, steps) = &contrasts[axis];
             let worth = |i: usize| {
                 let at = index(i);
@@ -241,7 +244,8 @@ impl PrintFrame {
         let at = frame_place(self.middle, side, row, place);
         let [u, v] = [0, 1].map(|k| self.start[k] + at[k] as f64);
         [0, 1].map(|k| {
-            (u * self.axes[0][k] + v * self.axes[1][k]).clamp(0.0, self.photo[k] as f64 - 1.0)
+            let inner = self.photo[k] as f64 - 1.0 - PRINT_FRAME_RIM_PIXELS;
+            (u * self.axes[0][k] + v * self.axes[1][k]).clamp(PRINT_FRAME_RIM_PIXELS, inner)
         })
     }
 
@@ -291,7 +295,7 @@ impl PrintFrame {
                 let (side, path) = (&self.sides[k], chosen[k]);
                 let (from, to) = (corners[k][1], corners[(k + 1) % 4][0]);
                 let (low, high) = (from.min(to), from.max(to));
-                let reach = (CUT_END_LENGTH_SHARE * (high - low) as f64) as usize;
+                let reach = (BEYOND_CORNER_SHARE * (high - low) as f64) as usize;
                 let before = side.strength(path, low.saturating_sub(reach)..low);
                 let after = side.strength(path, high..(high + reach).min(side.rows));
                 let beyond = before.max(after);

@@ -51,7 +51,7 @@ const FINE_GRID_COLS: usize = 25;
 
 /// Number of times that lines of print are detected in the flattened photo and the sheet is fitted to them.
 /// Its row: `benches/page.md`, Models.
-const LINE_DETECTION_ROUNDS: usize = 3;
+const LINE_DETECTION_ROUNDS: usize = 2;
 
 /// Weights of the residuals in the fit of a sheet of smooth paper, which is firm against strain.
 /// Chosen by `benches/page.md`, Beside other ways.
@@ -108,12 +108,7 @@ pub(super) struct PageTraces {
 impl PageTraces {
     /// Weights of the fit of smooth paper.
     fn firm_weights(&self) -> SheetWeights {
-        let [across, along] = RULED_BENDING;
-        let bending = match self.bent {
-            None => FIRM_PAPER_WEIGHTS.bending,
-            Some(BentEdges::TopBottom) => [across, along],
-            Some(BentEdges::LeftRight) => [along, across],
-        };
+        let bending = self.bent.map_or(FIRM_PAPER_WEIGHTS.bending, ruled_bending);
         let edges = if self.is_seen {
             1.0
         } else {
@@ -167,6 +162,15 @@ impl PageTraces {
     }
 }
 
+/// Stiffness against bending of lines across and down a page whose edges `bent` are bent and whose others are straight.
+fn ruled_bending(bent: BentEdges) -> [f64; 2] {
+    let [across, along] = RULED_BENDING;
+    match bent {
+        BentEdges::TopBottom => [across, along],
+        BentEdges::LeftRight => [along, across],
+    }
+}
+
 /// Finds the plainest model of a page that explains its edges and the lines of print that the photo shows between them. Of
 /// several kinds of prior knowledge `priors`, such as of a format that may lie across, that is taken by which a sheet explains
 /// the edges best. None if no model does.
@@ -191,17 +195,41 @@ pub(super) fn find_sheet(
         view,
     };
     let (mut sheet, mut figures) =
-        progress::part(0.6, || problem.with_lines(coarse, &starts, &print))?;
+        progress::part(0.4, || problem.with_lines(coarse.clone(), &starts, &print))?;
     let mut model = PageModel::Sheet;
     if traces.bent.is_some() {
         model = PageModel::Cylinder;
     } else if figures.lines > MAX_FIRM_LINE_MISFIT {
         let mut crumpled = problem.clone();
         crumpled.weights = CRUMPLED_PAPER_WEIGHTS;
-        let found = progress::part(1.0, || crumpled.with_lines(sheet.clone(), &starts, &print));
+        crumpled.lines.clear();
+        crumpled.folds.clear();
+        let refined = crumpled.refined(coarse.clone(), &COARSE_GRID_COLS);
+        let found = progress::part(0.6, || {
+            refined.and_then(|coarse| crumpled.with_lines(coarse, &starts, &print))
+        });
         if let Some(found) = found {
             (sheet, figures) = found;
             (problem, model) = (crumpled, PageModel::SoftSheet);
+        }
+    }
+    // A page that is curled in one direction explains edges and lines better than a sheet that is equally firm in both, and
+    // better than one that may wrinkle: a strong curl is no crumple.
+    let curled = (traces.bent.is_none()).then_some([BentEdges::TopBottom, BentEdges::LeftRight]);
+    for (end, bent) in [0.8, 1.0].into_iter().zip(curled.into_iter().flatten()) {
+        let mut ruled = problem.clone();
+        ruled.weights = SheetWeights {
+            bending: ruled_bending(bent),
+            ..traces.firm_weights()
+        };
+        ruled.lines.clear();
+        ruled.folds.clear();
+        let own = progress::part(end, || ruled.curled_fit(&coarse, &starts, &print));
+        let Some(own) = own else {
+            continue;
+        };
+        if own.1.outline.hypot(own.1.lines) < figures.outline.hypot(figures.lines) {
+            ((sheet, figures), problem, model) = (own, ruled, PageModel::Cylinder);
         }
     }
     // What unseen edges leave open counts in full for the error.
@@ -242,6 +270,20 @@ impl SheetProblem {
             sheet = self.solve(sheet)?;
         }
         Some(sheet)
+    }
+
+    /// Fits a page that is curled in one direction; returns it with its measures. None if it explains the edges worse than the
+    /// coarse sheet `firm`, or is not in front of the camera.
+    fn curled_fit(
+        &mut self,
+        firm: &FittedSheet,
+        starts: &[FittedSheet],
+        print: &PagePrint<'_>,
+    ) -> Option<(FittedSheet, SheetFigures)> {
+        let coarse = self.refined(firm.clone(), &COARSE_GRID_COLS)?;
+        let coarse = self.with_lowest_cost(coarse, &starts[1..]);
+        let explains = self.figures(&coarse)?.outline < self.figures(firm)?.outline;
+        explains.then(|| self.with_lines(coarse, starts, print))?
     }
 
     /// Fits coarse sheets from the initial guesses `starts`, with the lines of print where `sheet` has them; returns that

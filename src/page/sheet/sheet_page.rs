@@ -78,8 +78,9 @@ const ERROR_BOUND_RATIO: f64 = 2.0;
 
 impl SheetPage {
     /// Finds a page by its traced edges and lines of text in a photo of `size` (width and height) pixels, and by lines of
-    /// print that are detected in `photo`, if that is given. The model is a plane where that explains all, else an isometric sheet,
-    /// slightly strained if it is crumpled; one that is curled in one direction if two edges alone are traced.
+    /// print that are detected in `photo`, if that is given. The model is a plane where that explains all, else
+    /// whichever explains edges and lines better of an isometric sheet (slightly strained if it is crumpled) and one that is curled
+    /// in one direction.
     ///
     /// Camera and proportions are found, too, within what is usual and what `options` tell. Costs some hundred
     /// milliseconds.

@@ -2,10 +2,9 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::shape::patches::NO_PATCH;
-use crate::shape::patches::extrapolate::Continuations;
+use crate::shape::patches::extrapolate::extrapolated_height;
 
 /// Maximum distance in height, in lattice spacings, of a vertex at the border from the quadratic through the other vertices of its
 /// patch nearby. `benches/patterns.md` has what others give.
@@ -16,7 +15,7 @@ const MAX_LOOSE_PASSES: usize = 4;
 
 /// Takes vertices at the border from their patches that are far from what the other vertices of their patch say, the farthest
 /// first. Returns the patches, and the number of vertices taken.
-pub(super) fn without_loose(surface: &Heightfield, labels: &[u32]) -> Result<(Vec<u32>, usize)> {
+pub(super) fn without_loose(surface: &Heightfield, labels: &[u32]) -> (Vec<u32>, usize) {
     let lattice = surface.lattice();
     let mut labels = labels.to_vec();
     let mut taken = 0;
@@ -25,10 +24,10 @@ pub(super) fn without_loose(surface: &Heightfield, labels: &[u32]) -> Result<(Ve
             let inner = lattice.around(i).filter(|k| labels[*k] != NO_PATCH);
             labels[i] != NO_PATCH && inner.count() < 6
         };
-        let continued = Continuations::new(surface, &labels)?;
         let mut away: FxHashMap<usize, f64> = FxHashMap::default();
         for i in (0..lattice.len()).filter(|i| is_outer(*i)) {
-            let distance = (surface.heights()[i] - continued.height(labels[i], i)).abs();
+            let distance =
+                (surface.heights()[i] - extrapolated_height(surface, &labels, labels[i], i)).abs();
             if distance > MAX_LOOSE_SPACINGS * lattice.spacing() {
                 away.insert(i, distance);
             }
@@ -45,5 +44,5 @@ pub(super) fn without_loose(surface: &Heightfield, labels: &[u32]) -> Result<(Ve
             break;
         }
     }
-    Ok((labels, taken))
+    (labels, taken)
 }

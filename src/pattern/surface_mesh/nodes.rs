@@ -5,14 +5,13 @@ use rustc_hash::FxHashMap;
 use std::cell::RefCell;
 
 use super::border::BorderLines;
-use crate::error::Result;
 use crate::heights::heightfield::Heightfield;
 use crate::math::index::NO_INDEX;
 use crate::math::least_squares::LeastSquares;
 use crate::scene::triangulation::Triangulation;
 use crate::shape::patches::NO_PATCH;
 use crate::shape::patches::crease::CreaseNode;
-use crate::shape::patches::extrapolate::Continuations;
+use crate::shape::patches::extrapolate::extrapolated_height;
 
 /// A surface on its lattice, with the patches of its vertices and the line along its border.
 pub(super) struct Nodes<'a> {
@@ -20,7 +19,6 @@ pub(super) struct Nodes<'a> {
     pub lattice: &'a Triangulation,
     labels: &'a [u32],
     border: &'a BorderLines,
-    continuations: Continuations<'a>,
     /// Extrapolated height of a patch at a vertex of another one.
     continued: RefCell<FxHashMap<(u32, u32), f64>>,
 }
@@ -31,15 +29,14 @@ impl<'a> Nodes<'a> {
         lattice: &'a Triangulation,
         labels: &'a [u32],
         border: &'a BorderLines,
-    ) -> Result<Self> {
-        Ok(Nodes {
+    ) -> Self {
+        Nodes {
             surface,
             lattice,
             labels,
             border,
-            continuations: Continuations::new(surface, labels)?,
             continued: RefCell::default(),
-        })
+        }
     }
 
     /// Number of the patch of a vertex of the lattice's mesh.
@@ -193,7 +190,7 @@ impl<'a> Nodes<'a> {
         }
         let index = self.lattice.vertices()[vertex as usize] as usize;
         let mut all = self.continued.borrow_mut();
-        let height = || self.continuations.height(patch, index);
+        let height = || extrapolated_height(self.surface, self.labels, patch, index);
         *all.entry((vertex, patch)).or_insert_with(height)
     }
 

@@ -2,6 +2,7 @@
 
 use super::bend_angles::BendAngles;
 use super::crease::{Crease, creases};
+use super::extrapolate::reassign_border_vertices;
 use super::flood_fill::segment;
 use super::merge::merge_patches;
 use super::options::PatchOptions;
@@ -47,6 +48,7 @@ impl Patches {
         let valid = labels.iter().filter(|label| **label != NO_PATCH).count();
         let min_vertices = options.smallest * valid as f64;
         merge_patches(surface, &bend, fold, min_vertices, &mut labels);
+        reassign_border_vertices(surface, &bend, &mut labels);
         let mesh = Triangulation::new(surface, &Frame::default())?;
         let (patches, _) = number_by_area(&mesh, &mut labels)?;
         let creases = creases(surface, &mesh, &bend, &labels);

@@ -6,7 +6,8 @@
 //! vertices above the lower one that contains a vertex above the
 //! higher one. The connected components of the rest are patches. They grow into the bands, the
 //! vertices that bend least first, until they meet on the bands' ridges; patches that meet at a small
-//! angle are merged.
+//! angle are merged. Where creases end at the border of the surface, vertices are assigned to the
+//! patch whose extrapolation they lie on.
 //!
 //! ```
 //! use developable::patches::{PatchOptions, Patches};

@@ -18,7 +18,9 @@ use developable::drawing::{Drawing, DrawingOptions};
 use developable::files::meshes::read_mesh;
 use developable::patches::{MeshPatches, PatchOptions, Patches};
 use developable::pattern::{Missing, PatternOptions, Sheet, pattern, pattern_mesh};
-use developable::{Example, ExampleOptions, Heightfield, Mesh, MeshOptions, Options, fit, fit_mesh};
+use developable::{
+    Example, ExampleOptions, Heightfield, Mesh, MeshOptions, Options, fit, fit_mesh,
+};
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
 

@@ -51,6 +51,8 @@ pageTest('attributes name elements that there are, and nothing that is said wait
 pageTest('everything can be done by keyboard', async (page) => {
   await tabTo(page, '#end-file');
   await page.keyboard.press('Enter');
+  // What it offers is loaded first.
+  await page.locator('#save-dialog[open]').waitFor();
   await tabTo(page, 'input[name="save-format"]');
   await page.keyboard.press('ArrowUp');
   await page.locator('#save-size', { hasText: /exr, \d/ }).waitFor();

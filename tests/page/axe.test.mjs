@@ -125,6 +125,7 @@ pageTest('axe finds nothing wrong with surfaces in space, the gallery, and dialo
   await soundEverywhere(page, 'the gallery', { within: '#gallery' });
   await page.keyboard.press('Escape');
   await page.locator('#end-file').click();
+  await page.locator('#save-dialog[open]').waitFor();
   await soundEverywhere(page, 'the dialog that saves', { within: '#save-dialog' });
   await page.keyboard.press('Escape');
   await page.locator('#end-sheets').click();

@@ -3,7 +3,6 @@ import { endingOf, isPdf, kindByName } from '../file-kinds.js';
 import { isInColour, routeFiles } from '../file-routing.js';
 import { BATCH_WORDS, FILE_WORDS, HEADLINE_WORDS } from '../messages.js';
 import { picturesOfPdf } from '../page/pdf.js';
-import { offerBatch } from './batch.js';
 import { showNotice } from './notice.js';
 
 /** @import {Mode} from './mode.js' */
@@ -70,7 +69,7 @@ export function filesPanel(session, mode, source, page) {
     // The start of a run hides the notice, so it is shown afterwards.
     const openable = left.filter(kindByName);
     const scans = [taken[0], ...left.filter((file) => endingOf(file) === endingOf(taken[0]))];
-    if (scans.length > 1 && taken.length === 1 && session.input?.stored) note(HEADLINE_WORDS.opened(`“${taken[0].name}”`), { label: BATCH_WORDS.offer(scans.length), act: () => void offerBatch(session, scans) });
+    if (scans.length > 1 && taken.length === 1 && session.input?.stored) note(HEADLINE_WORDS.opened(`“${taken[0].name}”`), { label: BATCH_WORDS.offer(scans.length), act: async () => (await import('./batch.js')).offerBatch(session, scans) });
     else if (openable.length > 0) note(leftOut, { label: FILE_WORDS.openInstead(openable), act: () => void open(openable) });
     else if (taken.length === 1 && kindByName(taken[0]) === 'picture') note([FILE_WORDS.takenForHeights, leftOut].filter(Boolean).join(' '), { label: FILE_WORDS.openAsPage, act: () => void openPhotos(taken, '', true) });
     else note(leftOut);

@@ -35,8 +35,8 @@ export const PLAIN_CALLS = {
 
 /** @typedef {keyof typeof PLAIN_CALLS} PlainCallName */
 
-/** The options of a call of any surface: those of meshes have a set of their own. @param {string} call @param {unknown} input */
-export const surfaceCall = (call, input) => /** @type {'unroll' | 'unrollMesh'} */ (isMesh(input) ? `${call}Mesh` : call);
+/** The name of the options of a call of any surface: those of meshes have a set of their own. @param {string} call @param {unknown} input */
+const surfaceCall = (call, input) => /** @type {'unroll' | 'unrollMesh'} */ (isMesh(input) ? `${call}Mesh` : call);
 
 /**
  * Makes something of each of these calls.

@@ -14,7 +14,7 @@ import { offerToSave } from './save-dialog.js';
 /** Offers the surfaces of scans, solved with the settings of the one that is shown. @param {Session} session @param {readonly File[]} files */
 export async function offerBatch({ api, settings }, files) {
   const { IMAGE_FILES } = await import('../../pkg/schema/image-files.js');
-  /** Those that are solved: further formats write them again. @type {Map<File, { name: string, surface: Surface }>} */
+  /** The scans that are solved, by their files: further formats write them again. @type {Map<File, { name: string, surface: Surface }>} */
   const solved = new Map();
   /** Why the others are left out. @type {string[]} */
   let problems = [];

@@ -1,7 +1,7 @@
 /**
  * `npm run bench`: how fast it is, always as ratios of things measured in the same run;
- * `npm run bench -- NAME...` makes some of the tables, or those of a document, `--peers` those with other programs, `--quick`
- * smaller ones; `--write` writes the documents whose tables were all made, and `--input FILE` adds a file of your own.
+ * `npm run bench -- NAME...` makes some of the tables, `--peers` those with other programs, `--quick` smaller ones;
+ * `--write` writes the document of all tables, and `--input FILE` adds a file of your own.
  */
 import { mkdtemp, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
@@ -9,7 +9,7 @@ import { join } from 'node:path';
 import { parse } from './bench/arguments.mjs';
 import { Bench, buildNative } from './bench/bench.mjs';
 import { machine } from './bench/machine.mjs';
-import { documents as known, tables } from './bench/tables.mjs';
+import { document, tables } from './bench/tables.mjs';
 import { rule } from './bench/task.mjs';
 import { asMarkdown, asText } from './bench/text.mjs';
 import { build } from './build.mjs';
@@ -17,7 +17,7 @@ import { root } from './util/paths.mjs';
 import { main } from './util/problem.mjs';
 
 await main(async () => {
-  const { quick, names, documents, file } = parse(process.argv.slice(2));
+  const { quick, names, write, file } = parse(process.argv.slice(2));
   await build();
   await buildNative();
 
@@ -36,23 +36,18 @@ await main(async () => {
   for (const table of Object.values(made)) console.log(asText(table));
   for (const { summary } of Object.values(made)) if (summary) console.log(summary);
   console.log(`\n${where}\n${((performance.now() - start) / 1000).toFixed(0)} s`);
-  for (const path of documents) {
-    const { title, tables: its } = known[path];
-    const text = page(title, where, Object.keys(its).map((name) => made[name]));
-    await writeFile(join(root, path), text);
-  }
+  if (write) await writeFile(join(root, document.path), page(where, names.map((name) => made[name])));
 });
 
 /**
- * A document of tables, with what they come to at its head.
- * @param {string} title
+ * The document of tables, with what they come to at its head.
  * @param {string} where
  * @param {import('./bench/text.mjs').Table[]} made
  */
-function page(title, where, made) {
+function page(where, made) {
   const date = new Date().toISOString().slice(0, 10);
   const summaries = made.flatMap(({ summary }) => (summary ? [`- ${summary}`] : []));
-  const head = `# ${title}
+  const head = `# ${document.title}
 
 Written by \`npm run bench -- --write\` on ${date}: ${where}.
 

@@ -3,7 +3,7 @@ import { existsSync } from 'node:fs';
 import { basename, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import { Problem } from '../util/problem.mjs';
-import { documents, peers as peerTables, tables } from './tables.mjs';
+import { document, documentTables, peers as peerTables, tables } from './tables.mjs';
 
 const flags = /** @type {const} */ ({
   quick: { type: 'boolean' },
@@ -20,19 +20,14 @@ const flags = /** @type {const} */ ({
 export function parse(args) {
   const { values, positionals } = split(args);
   const { quick = false, write = false, peers = false } = values;
-  const unknown = positionals.find((name) => !(name in tables) && !(name in documents));
-  if (unknown !== undefined) {
-    const known = [...Object.keys(tables), ...Object.keys(documents)];
-    throw new Problem(`There is no table or document "${unknown}": there are ${known.join(', ')}.`);
-  }
+  const unknown = positionals.find((name) => !(name in tables));
+  if (unknown !== undefined) throw new Problem(`There is no table "${unknown}": there are ${Object.keys(tables).join(', ')}.`);
   const chosen = [...positionals, ...(peers ? peerTables : [])];
-  const names = new Set((chosen.length > 0 ? chosen : Object.keys(documents))
-    .flatMap((name) => (name in documents ? Object.keys(documents[name].tables) : [name])));
-  const whole = Object.keys(documents).filter((name) => Object.keys(documents[name].tables).every((table) => names.has(table)));
-  if (write && (quick || whole.length === 0)) {
-    throw new Problem(`A document has all of its tables in full: leave --quick away, and name ${Object.keys(documents).join(' or ')}, or nothing.`);
+  const names = new Set(chosen.length > 0 ? chosen : Object.keys(documentTables));
+  if (write && (quick || !Object.keys(documentTables).every((table) => names.has(table)))) {
+    throw new Problem(`${document.path} has all of its tables in full: leave --quick away, and name none.`);
   }
-  return { quick, names: [...names], documents: write ? whole : [], file: values.input === undefined ? undefined : file(values.input, values) };
+  return { quick, names: [...names], write, file: values.input === undefined ? undefined : file(values.input, values) };
 }
 
 /**

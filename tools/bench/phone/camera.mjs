@@ -4,7 +4,7 @@
  * @typedef {import('./pages.mjs').Page} Page
  * @typedef {import('./pages.mjs').Point} Point
  * @typedef {{ width: number, height: number, fx: number, fy: number, cx: number, cy: number }} Camera
- * @typedef {{ name: string, distance: number, tilt: number, yaw: number, roll: number, behind: 'wall' | 'table' }} Pose
+ * @typedef {{ distance: number, tilt: number, yaw: number, roll: number, behind: 'wall' | 'table' }} Pose
  *   metres and degrees, and what is behind the page: a wall far off, or the table that it lies on
  *
  * @typedef {object} View
@@ -16,12 +16,6 @@
 
 /** A LiDAR's. */
 export const depthCamera = { width: 256, height: 192, fx: 205, fy: 205, cx: 126, cy: 97 };
-
-/** @type {Pose[]} */
-export const poses = [
-  { name: '43 cm, 25°, in the air', distance: 0.43, tilt: 25, yaw: 0, roll: 0, behind: 'wall' },
-  { name: '52 cm, turned, on a table', distance: 0.52, tilt: 12, yaw: 18, roll: 7, behind: 'table' },
-];
 
 /**
  * A camera in the same place with so many times as many pixels.

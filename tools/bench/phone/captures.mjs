@@ -86,7 +86,7 @@ export function capture(number, photoCamera, isLidar = false) {
   const names = Object.keys(kinds);
   const page = kinds[names[number % names.length]](chance);
   const pose = {
-    name: '', distance: 0.38 + 0.25 * chance(), tilt: 30 * chance(), yaw: 40 * (chance() - 0.5), roll: 20 * (chance() - 0.5),
+    distance: 0.38 + 0.25 * chance(), tilt: 30 * chance(), yaw: 40 * (chance() - 0.5), roll: 20 * (chance() - 0.5),
     behind: one(/** @type {const} */ (['wall', 'table'])),
   };
   const some = [one([0.5, 1, 2, 3, 4]), one([0.7, 1, 1.5, 2, 3])];

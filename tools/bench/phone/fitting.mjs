@@ -1,4 +1,4 @@
-/** Best similarities and affine maps between places. */
+/** Best similarities between places. */
 
 /** @typedef {[x: number, y: number, p: number, q: number]} Pair a place, and where it should be */
 
@@ -32,29 +32,4 @@ export function similarity(pairs) {
   const [x, y, p, q] = mean;
   const rms = Math.sqrt(Math.max(0, to - (re * re + im * im) / from));
   return { a, b, s: p - a * x + b * y, t: q - b * x - a * y, rms };
-}
-
-/**
- * The singular values of a matrix by rows, the larger one first.
- * @param {readonly [number, number, number, number]} matrix
- */
-export function singular([a, b, c, d]) {
-  const [sum, difference] = [Math.hypot(a + d, b - c), Math.hypot(a - d, b + c)];
-  return [(sum + difference) / 2, Math.abs(sum - difference) / 2];
-}
-
-/**
- * How much longer lengths are in one direction than in the one across it, by the best affine map: 0 for a similarity.
- * @param {readonly Pair[]} pairs
- */
-export function anisotropy(pairs) {
-  const { product } = moments(pairs);
-  const [xx, xy, yy] = [product(0, 0), product(0, 1), product(1, 1)];
-  const determinant = xx * yy - xy * xy;
-  const row = (/** @type {number} */ k) => {
-    const [xk, yk] = [product(0, k), product(1, k)];
-    return /** @type {const} */ ([(yy * xk - xy * yk) / determinant, (xx * yk - xy * xk) / determinant]);
-  };
-  const [large, small] = singular([...row(2), ...row(3)]);
-  return large / small - 1;
 }

@@ -77,26 +77,3 @@ export function crumpled(fold, facet = [0.31, 0.37]) {
     },
   };
 }
-
-const degree = Math.PI / 180;
-const [wide, high] = A4;
-
-/** Along a curve. @param {number} p */
-const curl = (p) => 0.75 * Math.sin((3.2 * p) / wide + 2);
-
-/** In thirds. @param {number} p */
-const folds = (p) => (p < -high / 6 ? 0.42 : p < high / 6 ? -0.36 : 0.3);
-
-/** Steep at the gutter, and flat at the outer edges, where a book's cover carries the page. @param {number} p */
-const book = (p) => (p < 0 ? 0.1 - 0.8 * Math.exp(p / 0.03) : 0.95 * Math.exp(-p / 0.035) - 0.12);
-
-/** Of every kind, for depths. */
-export const pages = [
-  profile('curled', A4, 8 * degree, curl),
-  profile('folded', A4, 86 * degree, folds),
-  crumpled(0.3),
-  profile('spread', SPREAD, 0, book),
-];
-
-/** Whose straight edges are rulings, for photos alone. */
-export const upright = profile('curled upright', A4, 0, curl);

@@ -9,8 +9,6 @@ import { background, finer, view } from './camera.mjs';
  * @typedef {{ width: number, height: number, data: Uint8Array }} Grey
  */
 
-/** Standard deviation of the kernel that the noise is smooth by, in pixels of the depths. */
-const SMOOTH = 2;
 /** Samples across a pixel of the depths; it collects light from half a pixel around it, too. */
 const FINE = 4;
 
@@ -38,7 +36,7 @@ export function normal(seed) {
  * @param {number} deviation of the kernel
  * @param {() => number} next
  */
-export function smoothRow(length, deviation, next) {
+function smoothRow(length, deviation, next) {
   const reach = Math.ceil(4 * deviation);
   const kernel = Array.from({ length: 2 * reach + 1 }, (_, i) => Math.exp(-0.5 * ((i - reach) / deviation) ** 2));
   const norm = Math.hypot(...kernel);
@@ -73,10 +71,10 @@ export function smoothNoise(width, height, deviation, next) {
  * @param {Pose} pose
  * @param {Camera} camera
  * @param {number} noise standard deviation, in millimetres
- * @param {number} [seed] of the noise
- * @param {number} [smooth] standard deviation of the kernel that the noise is smooth by, in pixels
+ * @param {number} seed of the noise
+ * @param {number} smooth standard deviation of the kernel that the noise is smooth by, in pixels
  */
-export function sensed(page, pose, camera, noise, seed = 0, smooth = SMOOTH) {
+export function sensed(page, pose, camera, noise, seed, smooth) {
   const { width, height } = camera;
   const close = finer(camera, FINE);
   const [fine, behind] = [view(page, pose, close), background(page, pose, close)];
@@ -112,7 +110,7 @@ export function sensed(page, pose, camera, noise, seed = 0, smooth = SMOOTH) {
  * @param {number} x in its pixels, (0, 0) the centre of the first
  * @param {number} y
  */
-export function greyAt({ width, height, data }, x, y) {
+function greyAt({ width, height, data }, x, y) {
   const [left, top] = [Math.min(Math.max(x, 0), width - 1.001), Math.min(Math.max(y, 0), height - 1.001)];
   const [i, j] = [Math.floor(left), Math.floor(top)];
   const [s, t, at] = [left - i, top - j, j * width + i];
@@ -144,24 +142,4 @@ export function photograph({ width, height, places }, print, page) {
     data[4 * i + 3] = 255;
   }
   return { width, height, data };
-}
-
-/**
- * The same photo in uneven light, with the shadow of a hand across it and a small sensor's noise.
- * @template {{ width: number, height: number, data: Uint8ClampedArray<ArrayBuffer> }} P
- * @param {P} photo
- * @returns {P}
- */
-export function shaded(photo) {
-  const { width, height } = photo;
-  const next = normal(3);
-  const data = photo.data.slice();
-  for (let i = 0; i < width * height; i += 1) {
-    const [x, y] = [(i % width) / width, Math.floor(i / width) / height];
-    const across = x + 0.6 * y;
-    const light = (0.5 + 0.4 * x * (1 - 0.4 * y)) * (across > 0.75 && across < 1 ? 0.7 : 1);
-    const noise = 10 + 6 * next();
-    for (let k = 4 * i; k < 4 * i + 3; k += 1) data[k] = photo.data[k] * light + noise;
-  }
-  return { ...photo, data };
 }

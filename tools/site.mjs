@@ -113,7 +113,7 @@ export async function writeSite(folder, { references = false } = {}) {
 
 /**
  * The service worker, with the files that it keeps from the start and a version that changes with any file. Guides are
- * kept from the start, without their pictures; these, the reference, text recognition and pdf.js are kept when they are opened, the
+ * kept from the start, without their pictures; these, the reference, text recognition, pdf.js and libheif are kept when they are opened, the
  * wasm for several threads is not.
  * @param {string} folder
  */
@@ -124,7 +124,7 @@ async function writeWorker(folder) {
   const code = await readFile(join(www, 'site', 'sw.js'), 'utf8');
   const hash = createHash('sha256').update(code);
   for (const file of files) hash.update(file).update(await readFile(join(folder, file)));
-  const kept = files.filter((file) => !/^(?:guide|reference)\/|^llms\.txt$|\/(?:threads_bg|text|pdf)-[^/]*$/.test(file) || KEPT.includes(file));
+  const kept = files.filter((file) => !/^(?:guide|reference)\/|^llms\.txt$|\/(?:threads_bg|text|pdf|heif)-[^/]*$/.test(file) || KEPT.includes(file));
   const site = { version: hash.digest('hex').slice(0, 16), files: kept.map((file) => `./${file}`) };
   await writeFile(join(folder, 'sw.js'), `globalThis.SITE = ${JSON.stringify(site)};\n${code}`);
 }

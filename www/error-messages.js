@@ -8,7 +8,7 @@ const OWN_MESSAGE_START = /^(it|its|the file|there|an attribute|a|line \d+) /;
 /** Wordings of libraries for a file that ends too early. */
 const TRUNCATED_FILE = /end of file|unexpected end|EOF|EOCD|fill whole buffer|missing bytes|completely read|too short|exceeds that of slice|truncated/i;
 /** The sentence that names the kinds of files which the page opens. */
-export const OPENED_FILES = 'This page opens photos of pages (JPEG, PNG, WebP, GIF, BMP, TIFF, PDF), heights and depths (TIFF, EXR, PFM, NPY, NPZ, PGM, SRTM, grids in text, grey PNG), and meshes and point clouds (OBJ, PLY, STL, 3MF, OFF, GLB, XYZ)';
+export const OPENED_FILES = 'This page opens photos of pages (JPEG, HEIC, PNG, WebP, GIF, BMP, TIFF, PDF), heights and depths (TIFF, EXR, PFM, NPY, NPZ, PGM, SRTM, grids in text, grey PNG), and meshes and point clouds (OBJ, PLY, STL, 3MF, OFF, GLB, XYZ)';
 /** Advice for a damaged file. */
 const COPY_AGAIN = 'copy, download or export it again';
 

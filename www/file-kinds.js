@@ -4,7 +4,7 @@
 const MESH_ENDING = /\.(obj|ply|stl|glb|gltf|3mf|off)$/i;
 const MATERIAL_ENDING = /\.mtl$/i;
 const HEIGHTS_ENDING = /\.(tiff?|exr|pfm|npy|npz)$/i;
-const PICTURE_ENDING = /\.(png|jpe?g|webp|avif|heic|gif|bmp)$/i;
+const PICTURE_ENDING = /\.(png|jpe?g|webp|avif|hei[cf]|gif|bmp)$/i;
 const CAMERA_ENDING = /\.(json|csv|txt|ya?ml|xml|conf|ini)$/i;
 /** Cameras of COLMAP; other `.bin` files of it are depths. */
 const COLMAP_CAMERAS = /^cameras\b[^.]*\.bin$/i;
@@ -19,6 +19,9 @@ export const endingOf = ({ name }) => name.toLowerCase().split('.').pop();
 
 /** Whether a file is a PDF, whose pages are pictures. @param {{ name: string, type: string }} file */
 export const isPdf = ({ name, type }) => /\.pdf$/i.test(name) || type === 'application/pdf';
+
+/** Whether a file is a photo as iPhones write it. @param {{ name: string, type: string }} file */
+export const isHeic = ({ name, type }) => /\.hei[cf]$/i.test(name) || /^image\/hei[cf]$/.test(type);
 
 /** Whether a file is a mesh. @param {string} name */
 export const isMesh = (name) => MESH_ENDING.test(name);

@@ -75,10 +75,7 @@ export async function fileRoles(files, inPhotoMode = false) {
   return roles;
 }
 
-/**
- * @param {File} file
- * @returns {Promise<Exclude<keyof FileRoles, 'others'> | null>}
- */
+/** @param {File} file @returns {Promise<Exclude<keyof FileRoles, 'others'> | null>} */
 async function roleOf(file) {
   const { name } = file;
   if (isMesh(name)) return 'mesh';
@@ -119,11 +116,7 @@ export async function isInColour(file) {
   return false;
 }
 
-/**
- * The files that a mesh refers to by their names, directly or in its materials.
- * @param {File} mesh
- * @param {readonly File[]} others
- */
+/** The files that a mesh refers to by their names, directly or in its materials. @param {File} mesh @param {readonly File[]} others */
 async function filesNamedBy(mesh, others) {
   const materials = others.filter(({ name }) => /\.mtl$/i.test(name));
   const texts = await Promise.all([/\.gltf$/i.test(mesh.name) ? mesh : mesh.slice(0, SEARCHED_MESH_BYTES), ...materials].map((part) => part.text()));

@@ -38,10 +38,7 @@ export function number(value, digits = 3) {
     .replace('-', '−');
 }
 
-/**
- * @param {number} value
- * @param {number} digits
- */
+/** @param {number} value @param {number} digits */
 function scientific(value, digits) {
   const [mantissa, exponent] = value.toExponential(digits - 1).split('e');
   const short = String(Number(mantissa)).replace('-', '−');
@@ -63,10 +60,7 @@ export function superscript(n) {
   return (n < 0 ? '⁻' : '') + digits.join('');
 }
 
-/**
- * An upper bound in percent, rounded up, so that it stays a bound; a dash if there is none.
- * @param {number | undefined} share
- */
+/** An upper bound in percent, rounded up, so that it stays a bound; a dash if there is none. @param {number | undefined} share */
 export function percentAtMost(share) {
   if (share === undefined || !Number.isFinite(share)) return '–';
   const percent = 100 * share;

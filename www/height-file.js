@@ -36,11 +36,7 @@ export async function readInput(api, file, signal, { array, noData } = {}, photo
   };
 }
 
-/**
- * Names of the arrays of an NPZ file that may be images; an empty list for other files.
- * @param {PackageWorker} reader
- * @param {File} file
- */
+/** Names of the arrays of an NPZ file that may be images; an empty list for other files. @param {PackageWorker} reader @param {File} file */
 async function heightArrayNames(reader, file) {
   if (!/\.npz$/i.test(file.name)) return [];
   const arrays = await reader.npzArrays(file);

@@ -118,10 +118,7 @@ export class Session extends Events {
     });
   }
 
-  /**
-   * Starts the workers of the solver and of the previews, before there is an input.
-   * @throws if the solver cannot be started
-   */
+  /** Starts the workers of the solver and of the previews, before there is an input. @throws if the solver cannot be started */
   async start() {
     const solver = this.#connectedWorker().init();
     this.#previews.start();
@@ -223,10 +220,7 @@ export class Session extends Events {
     this.emit('opening', null);
   }
 
-  /**
-   * Changes properties of the present input, and solves it again if it has been solved.
-   * @param {Partial<Omit<Input, 'name'>>} change
-   */
+  /** Changes properties of the present input, and solves it again if it has been solved. @param {Partial<Omit<Input, 'name'>>} change */
   updateInput(change) {
     if (!this.input) return;
     const input = (this.input = { ...this.input, ...change });

@@ -1,5 +1,6 @@
 /** A photo of a curled page alone: found, dragged, held, made flat and saved. */
 import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
 import { unzipSync } from 'fflate';
 import { pageCautions, pageErrors } from '../../www/page/messages.js';
@@ -257,6 +258,20 @@ doorTest('the pages of a PDF are photos of pages, read by what is loaded only th
   await dropAll(page, { 'torn.pdf': pdf.subarray(0, 300) });
   await page.getByRole('alert').filter({ hasText: /“torn\.pdf” could not be read: .* damaged, or not of the format PDF: .* again/ }).waitFor();
   assert.equal(await numbers.count(), 2);
+});
+
+doorTest('a photo in HEIC is read by what is loaded only then, as it was held', async (page) => {
+  /** @type {string[]} */
+  const asked = [];
+  page.on('request', (request) => asked.push(request.url()));
+  // pillow-heif has written `photo` so, a quarter turn to the left, with the tag that turns it back.
+  const heic = await readFile(new URL('support/dotted.heic', import.meta.url));
+  assert.equal(asked.filter((url) => /heif-/.test(url)).length, 0);
+  await dropAll(page, { 'IMG_1.HEIC': heic });
+  await page.locator('#page-caption', { hasText: 'IMG_1, 800 × 600' }).waitFor();
+  await flattened(page);
+  assert.deepEqual(asked.filter((url) => /heif-/.test(url)).map((url) => /heif-[a-z]+/.exec(url)?.[0]).sort(), ['heif-client', 'heif-decoder']);
+  assert.ok(misplaced(await flatPng(page)) < 0.005);
 });
 
 doorTest('text is recognised in the PDF when it is asked for, by what is loaded only then', async (page) => {

@@ -1,7 +1,7 @@
 /**
  * Libraries that come along, with their licences, for the package has no dependencies: comlink with its types; commander and
- * tinyglobby for the command, as one file each; and for the page what it needs of three.js, fflate, pdf.js, and Tesseract with its
- * model of English.
+ * tinyglobby for the command, as one file each; and for the page what it needs of three.js, fflate, pdf.js, libheif, and Tesseract
+ * with its model of English.
  */
 import { copyFile, mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
@@ -23,6 +23,7 @@ export async function buildVendor() {
   await bundleThree();
   await copyTesseract();
   await copyPdf();
+  await copyHeif();
 }
 
 async function copyComlink() {
@@ -98,4 +99,14 @@ async function copyPdf() {
     ['legacy/build/pdf.min.mjs', 'pdf-client.js'], ['legacy/build/pdf.worker.min.mjs', 'pdf-worker.js'], ['LICENSE', 'LICENSE-pdfjs'],
     ...['jbig2', 'openjpeg', 'qcms'].flatMap((name) => [[`wasm/${name === 'qcms' ? 'qcms_bg' : name}.wasm`, `pdf-${name}.wasm`], [`wasm/LICENSE_${name.toUpperCase()}`, `LICENSE-${name}`]]),
   ]) await copyFile(join(library, from), join(wwwVendor, to));
+}
+
+/** libheif, which the page loads when a photo is opened that the browser does not read, as a module. */
+async function copyHeif() {
+  const library = join(root, 'node_modules/libheif-js/libheif-wasm');
+  const code = await readFile(join(library, 'libheif.js'), 'utf8');
+  // What it says of a damaged file is for its developers.
+  await writeFile(join(wwwVendor, 'heif-client.js'), `${code.replaceAll('console.log(', '(() => {})(')}\nexport default libheif;\n`);
+  await copyFile(join(library, 'libheif.wasm'), join(wwwVendor, 'heif-decoder.wasm'));
+  await copyFile(join(library, 'LICENSE'), join(wwwVendor, 'LICENSE-libheif'));
 }

@@ -1,8 +1,9 @@
 /** Opens files of any kind, wherever they come from: the kind of a file chooses the part of the page. */
-import { endingOf, isPdf, kindByName } from '../file-kinds.js';
+import { endingOf, isHeic, isPdf, kindByName } from '../file-kinds.js';
 import { isInColour, routeFiles } from '../file-routing.js';
 import { BATCH_WORDS, FILE_WORDS, HEADLINE_WORDS } from '../messages.js';
 import { picturesOfPdf } from '../page/pdf.js';
+import { withoutHeic } from '../pixels.js';
 import { showNotice } from './notice.js';
 
 /** @import {Mode} from './mode.js' */
@@ -48,8 +49,10 @@ export function filesPanel(session, mode, source, page) {
 
   /** The mode of the page before the files that are being opened as heights, and how many openings are under way. @type {{ mode: Mode, openings: number }} */
   const earlier = { mode: 'home', openings: 0 };
-  /** @param {readonly File[]} files @param {boolean} [arePages] whether pictures were opened as pages @returns {Promise<void>} */
-  const open = async (files, arePages = mode.now === 'photo') => {
+  /** @param {readonly File[]} given @param {boolean} [arePages] whether pictures were opened as pages @returns {Promise<void>} */
+  const open = async (given, arePages = mode.now === 'photo') => {
+    const files = given.some(isHeic) ? await session.whileOpening('the photos could not be read', 'reading', () => withoutHeic(given)) : given;
+    if (!files) return;
     const pdf = files.find(isPdf);
     if (pdf) {
       const pages = await session.whileOpening(`“${pdf.name}” could not be read`, 'reading', (signal) => picturesOfPdf(pdf, signal));

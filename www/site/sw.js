@@ -1,6 +1,6 @@
 /**
  * The service worker: serves one version of the site without a network. The page and the guides are cached at installation;
- * pictures of guides, pages of the reference, text recognition and pdf.js are cached when they are opened.
+ * pictures of guides, pages of the reference, text recognition, pdf.js and libheif are cached when they are opened.
  */
 /**
  * @typedef {Event & { waitUntil: (done: Promise<unknown>) => void, data: unknown, request: Request, respondWith: (response: Promise<Response>) => void }} WorkerEvent
@@ -42,8 +42,8 @@ async function takeOver() {
   for (const tab of await worker.clients.matchAll({ includeUncontrolled: true })) tab.postMessage('renewed');
 }
 
-/** Whether a file is cached when it is opened: of a guide, of the reference, of text recognition or pdf.js. @param {URL} url */
-const isCachedLater = ({ href }) => ['guide/', 'reference/', 'assets/text-', 'assets/pdf-'].some((start) => href.startsWith(new URL(start, scope).href));
+/** Whether a file is cached when it is opened: of a guide, of the reference, of text recognition, pdf.js or libheif. @param {URL} url */
+const isCachedLater = ({ href }) => ['guide/', 'reference/', 'assets/text-', 'assets/pdf-', 'assets/heif-'].some((start) => href.startsWith(new URL(start, scope).href));
 
 listen('fetch', (event) => {
   const { request } = event;

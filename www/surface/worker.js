@@ -3,13 +3,14 @@ import { expose, transfer } from '../../pkg/wire.js';
 import { interpretFile } from '../import-interpretation.js';
 import { rmsError } from './compare.js';
 import { downsample } from './downsampling.js';
+import { jpegOfHeic } from './heic.js';
 import { interpolateToGrid } from './lattice.js';
 import { decodePicture } from './photo-decoding.js';
 import { sheetStrainImage } from './colour-images.js';
 import { totalGaussianCurvature } from './gaussian-curvature.js';
 
 /** The tasks by name. */
-export const tasks = { interpolateToGrid, interpretFile, downsample, decodePicture, rmsError, totalGaussianCurvature, sheetStrainImage };
+export const tasks = { interpolateToGrid, interpretFile, downsample, decodePicture, jpegOfHeic, rmsError, totalGaussianCurvature, sheetStrainImage };
 
 // The buffers of arrays in an answer are transferred.
 expose(Object.fromEntries(Object.entries(tasks).map(([name, task]) => [name, async (/** @type {any[]} */ ...args) => {

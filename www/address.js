@@ -48,11 +48,7 @@ export function addressOf({ card, example, file, linked, stored, settings, whole
 /** Whether a fragment leads to the first screen. @param {string} hash */
 export const isStart = (hash) => hash.length <= 1;
 
-/**
- * Decodes a fragment; unknown or invalid parts are ignored.
- * @param {string} hash
- * @returns {State}
- */
+/** Decodes a fragment; unknown or invalid parts are ignored. @param {string} hash @returns {State} */
 export function stateOf(hash) {
   const parameters = new URLSearchParams(hash.replace(/^#/, ''));
   /** @param {string} name */

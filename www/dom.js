@@ -43,11 +43,7 @@ export function onFilesChosen(button, input, onFiles) {
   });
 }
 
-/**
- * Throttles a function to one call per animation frame.
- * @param {() => void} draw
- * @returns {() => void}
- */
+/** Throttles a function to one call per animation frame. @param {() => void} draw @returns {() => void} */
 export function oncePerFrame(draw) {
   let scheduled = false;
   return () => {

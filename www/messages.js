@@ -297,10 +297,7 @@ export function piecesInWords(pieces, creases, oneSide = false) {
   return oneSide ? `From this side: ${words[0].toLowerCase()}${words.slice(1)}.` : `${words}.`;
 }
 
-/**
- * Describes the inputs that a λ suits: the paper's heuristic (Sec. 5), extended to smaller and larger λ.
- * @param {number} lambda
- */
+/** Describes the inputs that a λ suits: the paper's heuristic (Sec. 5), extended to smaller and larger λ. @param {number} lambda */
 export function lambdaHint(lambda) {
   const exponent = Math.log10(lambda);
   if (exponent < 4.5) return 'Very simple: you get a few large pieces, and most detail goes.';
@@ -342,11 +339,7 @@ export function meshLambdaChoiceInWords({ lambda, sigma, stopReason }) {
   return `Chosen automatically. Noise: ${number(sigma)} along the normals, in the unit of the mesh.`;
 }
 
-/**
- * The message about an error.
- * @param {string} doing what could not be done
- * @param {unknown} error
- */
+/** The message about an error. @param {string} doing what could not be done @param {unknown} error */
 export function errorMessage(doing, error) {
   return `${doing}: ${plainMessage(error)}.`;
 }

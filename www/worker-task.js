@@ -44,10 +44,7 @@ export class Tasks {
     this.#Worker = Worker;
   }
 
-  /**
-   * @template T
-   * @param {(worker: Worker) => Promise<T>} task
-   */
+  /** @template T @param {(worker: Worker) => Promise<T>} task */
   async run(task) {
     clearTimeout(this.#idleTimer);
     const worker = (this.#worker ??= new this.#Worker());

@@ -100,11 +100,7 @@ export class Book {
   }
 }
 
-/**
- * The edges of the page that was detected in a photo.
- * @param {PagePhoto} photo
- * @returns {Traces}
- */
+/** The edges of the page that was detected in a photo. @param {PagePhoto} photo @returns {Traces} */
 function detectedTraces({ outlines: { verdict, pages: [found] } }) {
   if (verdict === 'notFound' || !found) throw new Error(BOOK_WORDS.unfound);
   const { top, bottom, left, right } = found.edges;

@@ -37,10 +37,7 @@ export class Handles {
   #magnifier;
   #callbacks;
 
-  /**
-   * @param {HTMLElement} box element that covers the photo exactly
-   * @param {HandleCallbacks} callbacks
-   */
+  /** @param {HTMLElement} box element that covers the photo exactly @param {HandleCallbacks} callbacks */
   constructor(box, callbacks) {
     this.box = box;
     this.#callbacks = callbacks;
@@ -79,10 +76,7 @@ export class Handles {
     }));
   }
 
-  /**
-   * Shrinks the photo inside its frame until places outside the photo are visible in the frame.
-   * @param {readonly Place[]} places
-   */
+  /** Shrinks the photo inside its frame until places outside the photo are visible in the frame. @param {readonly Place[]} places */
   showWithin(places) {
     const { width, height } = this.#photo;
     // Relative to the centre, as shares of the photo's sides.
@@ -113,11 +107,7 @@ export class Handles {
     this.#magnifier.show(this.#photo, [x, y], lines.map(({ points }) => points));
   }
 
-  /**
-   * The place of a pointer event in pixels of the photo.
-   * @param {MouseEvent} event
-   * @returns {[number, number]}
-   */
+  /** The place of a pointer event in pixels of the photo. @param {MouseEvent} event @returns {[number, number]} */
   photoPosition({ clientX, clientY }) {
     const { left, top } = this.box.getBoundingClientRect();
     return [(clientX - left) * this.#scale - 0.5, (clientY - top) * this.#scale - 0.5];

@@ -6,10 +6,7 @@ import { element } from '../dom.js';
 /** The guide to each job. */
 const GUIDES = { home: './guide/docs/page.html', photo: './guide/docs/dewarp.html', model: './guide/docs/meshes.html', scan: './guide/docs/scans.html' };
 
-/**
- * @param {Session} session
- * @param {(mode: Mode) => void} onEnter
- */
+/** @param {Session} session @param {(mode: Mode) => void} onEnter */
 export function modePanel(session, onEnter) {
   const sides = { home: element('home', HTMLElement), heights: element('heights-side', HTMLElement), photo: element('page-side', HTMLElement) };
   /** @type {Mode} */

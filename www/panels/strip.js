@@ -12,10 +12,7 @@ const THUMBNAIL_GAP = 0.05;
 /** λ of the five pictures. */
 const STRIP_LAMBDAS = [1e4, 1e5, 1e6, 1e7, 1e8];
 
-/**
- * @param {Session} session
- * @param {(settings: Settings) => void} adopt
- */
+/** @param {Session} session @param {(settings: Settings) => void} adopt */
 export function stripPanel(session, adopt) {
   const strip = element('strip', HTMLElement);
   const button = element('strip-open', HTMLButtonElement);

@@ -1,6 +1,7 @@
 //! Numerics that know nothing of lattices and surfaces: symmetric 2×2 and 3×3 matrices, least squares, planar
 //! geometry, medians, disjoint sets, and sums in single and double precision.
 
+pub(crate) mod bordered;
 pub(crate) mod fork;
 pub(crate) mod index;
 pub(crate) mod lanes;

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector2;
 
+use crate::math::bordered::BorderedSystem;
 use crate::page::robust_fit;
 
 /// Number of rounds of iteratively reweighted least squares.
@@ -42,55 +43,24 @@ pub(super) fn piecewise_smooth(points: &[[f64; 2]], length: f64) -> Vec<[f64; 2]
 }
 
 /// Minimises the sum of weighted squared distances from the points and of weighted squared second differences (Whittaker's
-/// smoother): a linear system with two diagonals beside the main one, solved by its Cholesky factors `L D Lᵀ`.
+/// smoother), coordinate by coordinate.
 fn smoothed(points: &[[f64; 2]], trust: &[f64], bends: &[f64]) -> Vec<Vector2<f64>> {
-    let n = points.len();
-    let mut bands = vec![[0.0; 3]; n];
-    for (i, weight) in trust.iter().enumerate() {
-        bands[i][0] += weight;
-    }
-    for (i, weight) in bends.iter().enumerate() {
-        for (row, lag, product) in [
-            (0, 0, 1.0),
-            (1, 0, 4.0),
-            (2, 0, 1.0),
-            (0, 1, -2.0),
-            (1, 1, -2.0),
-            (0, 2, 1.0),
-        ] {
-            bands[i + row][lag] += weight * product;
+    let [x, y] = [0, 1].map(|k| {
+        let mut system = BorderedSystem::new(points.len(), 2, 0);
+        for (i, (point, weight)) in points.iter().zip(trust).enumerate() {
+            let root = weight.sqrt();
+            system.add(&[(i, root)], &[], -root * point[k]);
         }
-    }
-    let mut right: Vec<Vector2<f64>> = (points.iter().zip(trust))
-        .map(|(p, weight)| Vector2::from(*p) * *weight)
-        .collect();
-    for i in 0..n {
-        let [diagonal, one, two] = bands[i];
-        let [a, b] = [one / diagonal, two / diagonal];
-        let here = right[i];
-        if i + 1 < n {
-            bands[i + 1][0] -= a * one;
-            bands[i + 1][1] -= a * two;
-            right[i + 1] -= here * a;
+        for (i, weight) in bends.iter().enumerate() {
+            let root = weight.sqrt();
+            system.add(&[(i, root), (i + 1, -2.0 * root), (i + 2, root)], &[], 0.0);
         }
-        if i + 2 < n {
-            bands[i + 2][0] -= b * two;
-            right[i + 2] -= here * b;
-        }
-        bands[i] = [diagonal, a, b];
-    }
-    for i in (0..n).rev() {
-        let [diagonal, a, b] = bands[i];
-        let mut value = right[i] / diagonal;
-        if i + 1 < n {
-            value -= right[i + 1] * a;
-        }
-        if i + 2 < n {
-            value -= right[i + 2] * b;
-        }
-        right[i] = value;
-    }
-    right
+        // Every point has a weight, so that there is a solution.
+        system.solve(0.0).map_or(Vec::new(), |(found, _)| found)
+    });
+    (x.into_iter().zip(y))
+        .map(|(x, y)| Vector2::new(x, y))
+        .collect()
 }
 
 #[cfg(test)]

@@ -2,9 +2,9 @@
 
 use nalgebra::Vector3;
 
-use super::bordered::BorderedSystem;
 use super::grid::SheetGrid;
 use super::problem::{ResidualRow, SheetProblem};
+use crate::math::bordered::BorderedSystem;
 use crate::page::robust_fit::{self, RobustProblem};
 
 /// Number of unknowns besides the sheet's nodes and lines: focal length, two coordinates of the principal point, ratio

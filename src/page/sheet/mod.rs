@@ -6,7 +6,6 @@
 //! Ramani Duraiswami, Larry Davis, *Structure of Applicable Surfaces from Single Views*, ECCV 2004, show that an
 //! outline nearly determines a smooth sheet.)
 
-mod bordered;
 mod camera;
 mod figures;
 mod fit;

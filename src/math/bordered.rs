@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// Normal equations `JᵀJ x = −Jᵀr` of a banded matrix with a dense border: the first unknowns couple only within a
 /// band, the last ones, which form the border, with all unknowns.
-pub(super) struct BorderedSystem {
+pub(crate) struct BorderedSystem {
     size: usize,
     half_width: usize,
     /// Lower triangle of the band matrix, row by row, the diagonal entry last in each row.
@@ -20,7 +20,7 @@ pub(super) struct BorderedSystem {
 impl BorderedSystem {
     /// Makes a system of zeros with `size` unknowns in the band, whose row `i` couples with `half_width` before it, and
     /// `border` further unknowns.
-    pub fn new(size: usize, half_width: usize, border: usize) -> Self {
+    pub(crate) fn new(size: usize, half_width: usize, border: usize) -> Self {
         BorderedSystem {
             size,
             half_width,
@@ -33,7 +33,12 @@ impl BorderedSystem {
 
     /// Adds one residual to the normal equations, with its derivatives as pairs of an unknown's number and the
     /// derivative by it: `banded` by unknowns of the band, `bordered` by those of the border.
-    pub fn add(&mut self, banded: &[(usize, f64)], bordered: &[(usize, f64)], residual: f64) {
+    pub(crate) fn add(
+        &mut self,
+        banded: &[(usize, f64)],
+        bordered: &[(usize, f64)],
+        residual: f64,
+    ) {
         let width = self.half_width + 1;
         for (i, a) in banded {
             let row = &mut self.band[i * width..(i + 1) * width];
@@ -57,7 +62,7 @@ impl BorderedSystem {
 
     /// Solves the normal equations with the diagonal increased by `damping` times itself; returns the unknowns of band
     /// and border. None if the matrix is not positive definite.
-    pub fn solve(&self, damping: f64) -> Option<(Vec<f64>, Vec<f64>)> {
+    pub(crate) fn solve(&self, damping: f64) -> Option<(Vec<f64>, Vec<f64>)> {
         let width = self.half_width + 1;
         let mut factor = self.band.clone();
         for i in 0..self.size {

@@ -44,6 +44,16 @@ impl BoxReduction {
 
     /// Reads the photo's next row, RGBA bytes, and appends a row to the reduced photo `out` if it completes one.
     pub fn push_row(&mut self, row: &[u8], out: &mut Vec<u8>) {
+        let count = (self.block[0] * self.block[1]) as u32;
+        self.add_row(row, |[r, g, b, a]| {
+            let mean = |value: u32| ((value + a / 2) / a.max(1)) as u8;
+            out.extend([mean(r), mean(g), mean(b), ((a + count / 2) / count) as u8]);
+        });
+    }
+
+    /// Reads the photo's next row, RGBA bytes; calls `take` with the sums of each block of a row that it completes: of red, green
+    /// and blue, each times alpha, and of alpha.
+    fn add_row(&mut self, row: &[u8], take: impl FnMut([u32; 4])) {
         let pixels = row.as_chunks::<4>().0;
         for (sum, pixels) in self.sums.iter_mut().zip(pixels.chunks_exact(self.block[0])) {
             for [r, g, b, a] in pixels {
@@ -55,15 +65,9 @@ impl BoxReduction {
             }
         }
         self.rows += 1;
-        if self.rows < self.block[1] {
-            return;
-        }
-        self.rows = 0;
-        let count = (self.block[0] * self.block[1]) as u32;
-        for sum in &mut self.sums {
-            let [r, g, b, a] = std::mem::take(sum);
-            let mean = |value: u32| ((value + a / 2) / a.max(1)) as u8;
-            out.extend([mean(r), mean(g), mean(b), ((a + count / 2) / count) as u8]);
+        if self.rows == self.block[1] {
+            self.rows = 0;
+            self.sums.iter_mut().map(std::mem::take).for_each(take);
         }
     }
 
@@ -74,6 +78,16 @@ impl BoxReduction {
             self.push_row(row, &mut out);
         }
         out
+    }
+
+    /// Calls `take` with the mean colour of each block of a photo, RGBA bytes row by row, from 0 to 255; not numbers where it is
+    /// transparent.
+    pub(crate) fn for_each_mean(mut self, rgba: &[u8], mut take: impl FnMut([f64; 3])) {
+        for row in rgba.chunks_exact(4 * self.width.max(1)) {
+            self.add_row(row, |[r, g, b, a]| {
+                take([r, g, b].map(|sum| f64::from(sum) / f64::from(a)));
+            });
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Reduced photos as planes of logarithmic red, green and blue.
 
-use crate::dewarp::Photo;
+use crate::dewarp::{BoxReduction, Photo};
 use crate::page::working_photo::WorkingPhoto;
 
 /// Maximum length of the longer side of a reduced photo or flat page, in pixels: a photo's edges are found to a tenth of such a
@@ -41,37 +41,17 @@ impl Planes {
         let photo = WorkingPhoto::new(photo);
         let [w, h] = photo.size();
         let block = w.max(h).div_ceil(MAX_REDUCED_SIDE);
-        let (width, height) = ((w / block).max(1), (h / block).max(1));
+        let reduction = BoxReduction::new([w, h], block);
+        let [width, height] = reduction.size();
         let mut channels = [const { Vec::new() }; 3];
-        channels
-            .iter_mut()
-            .for_each(|plane| plane.reserve(width * height));
-        let mut sums = vec![[0_u32; 3]; width];
-        for row in 0..height {
-            sums.fill([0; 3]);
-            let mut rows = 0;
-            for y in row * block..((row + 1) * block).min(h) {
-                rows += 1;
-                let line = &photo.rgba()[4 * w * y..4 * w * (y + 1)];
-                for (sum, pixels) in sums.iter_mut().zip(line.chunks(4 * block)) {
-                    for pixel in pixels.chunks_exact(4) {
-                        for (one, value) in sum.iter_mut().zip(pixel) {
-                            *one += u32::from(*value);
-                        }
-                    }
-                }
+        reduction.for_each_mean(photo.rgba(), |colour| {
+            let colour = colour.map(|value| value.max(0.0));
+            let largest = colour.iter().copied().fold(0.0, f64::max);
+            let offset = f64::from(LOG_OFFSET) + LARGEST_COMPONENT_SHARE * largest;
+            for (plane, value) in channels.iter_mut().zip(colour) {
+                plane.push((value + offset).ln() as f32);
             }
-            for (col, sum) in sums.iter().enumerate() {
-                let cols = ((col + 1) * block).min(w) - col * block;
-                let count = (rows * cols).max(1) as f64;
-                let colour = sum.map(|one| f64::from(one) / count);
-                let largest = colour.iter().copied().fold(0.0, f64::max);
-                let offset = f64::from(LOG_OFFSET) + LARGEST_COMPONENT_SHARE * largest;
-                for (plane, value) in channels.iter_mut().zip(colour) {
-                    plane.push((value + offset).ln() as f32);
-                }
-            }
-        }
+        });
         Planes {
             width,
             height,

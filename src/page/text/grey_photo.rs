@@ -1,6 +1,6 @@
 //! Brightness of a photo, reduced by averages of square blocks of pixels to about the resolution of the ink image.
 
-use crate::dewarp::Photo;
+use crate::dewarp::{BoxReduction, Photo};
 use crate::math::lanes;
 
 /// Brightness of a photo at a reduced resolution, from 0 to 255; NaN where the photo is transparent. Places are given in
@@ -14,31 +14,14 @@ pub(in crate::page) struct GreyPhoto {
 }
 
 impl GreyPhoto {
-    /// Averages the photo's brightness over squares with sides of `block` pixels. A photo that is smaller than one square
-    /// has no pixels.
+    /// Averages the photo's brightness over squares with sides of `block` pixels.
     pub fn new(photo: &Photo<'_>, block: usize) -> Self {
-        let [width, height] = [photo.width() / block, photo.height() / block];
-        let pixels = photo.rgba().as_chunks::<4>().0;
+        let reduction = BoxReduction::new([photo.width(), photo.height()], block);
+        let [width, height] = reduction.size();
         let mut data = Vec::with_capacity(width * height);
-        let mut sums = vec![[0_u32; 2]; width];
-        for rows in pixels.chunks_exact(photo.width() * block).take(height) {
-            sums.fill([0; 2]);
-            for row in rows.chunks_exact(photo.width()) {
-                for (sum, pixels) in sums.iter_mut().zip(row.chunks_exact(block)) {
-                    for [r, g, b, a] in pixels {
-                        if *a > 0 {
-                            sum[0] +=
-                                299 * u32::from(*r) + 587 * u32::from(*g) + 114 * u32::from(*b);
-                            sum[1] += 1000;
-                        }
-                    }
-                }
-            }
-            data.extend(
-                sums.iter()
-                    .map(|[sum, weight]| *sum as f32 / *weight as f32),
-            );
-        }
+        reduction.for_each_mean(photo.rgba(), |[r, g, b]| {
+            data.push(lanes::single(0.299 * r + 0.587 * g + 0.114 * b));
+        });
         GreyPhoto {
             width,
             height,

@@ -71,6 +71,18 @@ pub(super) fn smooth_path(worth: &[f32], width: usize, strip: usize) -> Vec<usiz
     path
 }
 
+/// Position of the highest point of the parabola through three equidistant values, in steps from the middle one, from −0.5 to 0.5;
+/// 0 where it has none.
+pub(super) fn parabola_peak(values: [f32; 3]) -> f64 {
+    let [a, b, c] = values.map(f64::from);
+    let bend = 2.0 * b - a - c;
+    if bend > 1e-6 {
+        (0.5 * (c - a) / bend).clamp(-0.5, 0.5)
+    } else {
+        0.0
+    }
+}
+
 /// The first place with the highest value.
 fn highest(places: std::ops::Range<usize>, value: impl Fn(usize) -> f32) -> usize {
     let first = places.start;

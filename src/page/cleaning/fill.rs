@@ -1,9 +1,6 @@
 //! Interpolation of a plane of values across gaps.
 
-use crate::page::outline::box_mean;
-
-/// Radii, in cells, of the means by which gaps are filled, from the largest to the smallest.
-const FILL_RADII: [usize; 4] = [400, 96, 24, 6];
+use crate::page::outline::{MAX_REDUCED_SIDE, box_mean};
 
 /// Weight of the estimate by the next larger radius, relative to a window of known values.
 const COARSE_WEIGHT: f32 = 0.02;
@@ -20,7 +17,8 @@ pub(super) fn fill_gaps(planes: &mut [Vec<f32>], known: &[bool], width: usize, h
         (values.map(|(value, _)| f64::from(*value)).sum::<f64>() / count as f64) as f32
     };
     let mut estimates: Vec<Vec<f32>> = planes.iter().map(|p| vec![mean(p); p.len()]).collect();
-    for radius in FILL_RADII {
+    // From half a page on, each a fourth of the one before.
+    for radius in [2, 8, 32, 128].map(|part| MAX_REDUCED_SIDE / part) {
         let mut weights: Vec<f32> = known.iter().map(|known| f32::from(*known)).collect();
         box_mean(&mut weights, width, height, radius);
         for (plane, estimate) in planes.iter().zip(&mut estimates) {

@@ -4,7 +4,7 @@ use super::corners::is_outside;
 use super::planes::{Planes, RIM_PIXELS};
 use super::smooth_curve::piecewise_smooth;
 use crate::math::planar::distance;
-use crate::page::best_path::best_path;
+use crate::page::best_path::{best_path, parabola_peak};
 
 /// Half the width of the band along a region's border in which the page's edge is searched, in pixels of the reduced
 /// photo.
@@ -200,13 +200,7 @@ impl EdgePath {
         let points: Vec<[f64; 2]> = (0..border.len())
             .map(|i| {
                 let k = BAND_MARGIN + path[i];
-                let [a, b, c] = [k - 1, k, k + 1].map(|k| f64::from(strengths[i][k]));
-                let bend = 2.0 * b - a - c;
-                let shift = if bend > 1e-6 {
-                    (0.5 * (c - a) / bend).clamp(-0.5, 0.5)
-                } else {
-                    0.0
-                };
+                let shift = parabola_peak([k - 1, k, k + 1].map(|k| strengths[i][k]));
                 let offset = k as f64 + shift - PROFILE_MIDDLE as f64;
                 let at = |offset: f64| [0, 1].map(|j| border[i][j] + offset * normals[i][j]);
                 if !is_outside(at(offset - RIM_PIXELS), size, 0.0) {

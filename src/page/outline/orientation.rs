@@ -7,7 +7,7 @@ use crate::math::planar::distance;
 const SAMPLES_ALONG_LONGER_SIDE: usize = 320;
 
 /// Width of the strips in which rows of print are detected, in samples: narrow enough that lines may be bent.
-const STRIP_SAMPLES: usize = 32;
+const STRIP_SAMPLES: usize = SAMPLES_ALONG_LONGER_SIDE / 10;
 
 /// Minimum ratio of the contrast energies across and along the lines for the print to have a direction.
 /// Its row: `benches/page.md`, One rule at a time.

@@ -2,6 +2,7 @@
 
 use super::ink::InkImage;
 use super::ranking::ranked;
+use crate::page::best_path::parabola_peak;
 
 /// Ink of a page by strips: mean darkness of each row of pixels in each of the vertical strips into which the page is
 /// divided.
@@ -107,7 +108,7 @@ impl SmoothedProfiles {
             .filter_map(|row| {
                 let [a, b, c] = [bent(row - 1), bent(row), bent(row + 1)];
                 (b > MIN_BAND_CONTRAST && b >= a && b > c)
-                    .then(|| row as f64 + parabola_vertex([a, b, c]))
+                    .then(|| row as f64 + parabola_peak([a, b, c]))
             })
             .collect()
     }
@@ -182,16 +183,6 @@ impl SmoothedProfiles {
         let drop = |row: usize| p[row - 1] - p[row + 1];
         let best = (from..=to).max_by(|i, j| drop(*i).total_cmp(&drop(*j)))?;
         let [a, b, c] = [drop(best - 1), drop(best), drop(best + 1)];
-        (b > 0.0 && b >= a && b >= c).then(|| best as f64 + parabola_vertex([a, b, c]))
+        (b > 0.0 && b >= a && b >= c).then(|| best as f64 + parabola_peak([a, b, c]))
     }
-}
-
-/// Position of the vertex of the parabola through three equidistant values, in steps from the middle one, limited to
-/// −0.5 to 0.5.
-fn parabola_vertex([a, b, c]: [f32; 3]) -> f64 {
-    let bend = f64::from(a - 2.0 * b + c);
-    if bend == 0.0 {
-        return 0.0;
-    }
-    (0.5 * f64::from(a - c) / bend).clamp(-0.5, 0.5)
 }

@@ -19,60 +19,41 @@ const DAMPING_INCREASE: f64 = 5.0;
 /// Chosen by `benches/page.md`, Beside other ways.
 const MAX_FIT_STEPS: usize = 15;
 
-/// A robust least-squares problem: its model, and the normal equations at one.
-pub(super) trait RobustProblem {
-    /// A model with its residuals: a point of the search.
-    type Model: Clone;
-    /// The normal equations at a model, with residuals reweighted by their penalty.
-    type System;
-
-    /// The normal equations at a model; None if the model is not in front of the camera.
-    fn system(&self, model: &Self::Model) -> Option<Self::System>;
-
-    /// The model after the step that solves the normal equations with their diagonal enlarged by the factor `1 + damping`;
-    /// None if they are singular, or the model is not in front of the camera.
-    fn stepped(
-        &self,
-        model: &Self::Model,
-        system: &Self::System,
-        damping: f64,
-    ) -> Option<Self::Model>;
-
-    /// The sum of the penalties of a model's residuals, which the search lowers.
-    fn cost(&self, model: &Self::Model) -> f64;
-}
-
 /// Finds the model with the lowest cost by the Levenberg–Marquardt method from an initial guess, until a step lowers the cost
-/// by no more than the tolerance at that cost. None if the initial model is not in front of the camera.
-pub(super) fn fit<P: RobustProblem>(
-    problem: &P,
-    start: P::Model,
-    tolerance: impl Fn(f64) -> f64,
-) -> Option<P::Model> {
+/// by no more than the share `tolerance`. `system` are the normal equations at a model, with residuals reweighted by their penalty;
+/// `step` makes the model that solves them with their diagonal enlarged by the factor `1 + damping`, if there is one; `cost` is the
+/// sum of the penalties. None if there are no equations at the initial model.
+pub(super) fn fit<M, S>(
+    start: M,
+    system: impl Fn(&M) -> Option<S>,
+    step: impl Fn(&M, &S, f64) -> Option<M>,
+    cost: impl Fn(&M) -> f64,
+    tolerance: f64,
+) -> Option<M> {
     let mut best = start;
+    let mut equations = system(&best)?;
     let mut damping = INITIAL_DAMPING;
-    for step in 0..MAX_FIT_STEPS {
-        let system = match problem.system(&best) {
-            Some(system) => system,
-            None if step == 0 => return None,
-            None => break,
-        };
-        let cost = problem.cost(&best);
+    for _ in 0..MAX_FIT_STEPS {
+        let before = cost(&best);
         let better = loop {
             // Shorter steps change the cost by its rounding errors alone.
             if damping * f64::EPSILON.sqrt() > 1.0 {
                 return Some(best);
             }
-            match problem.stepped(&best, &system, damping) {
-                Some(moved) if problem.cost(&moved) < cost => break moved,
+            match step(&best, &equations, damping) {
+                Some(moved) if cost(&moved) < before => break moved,
                 _ => damping *= DAMPING_INCREASE,
             }
         };
         damping = (damping * DAMPING_DECREASE).max(MIN_DAMPING);
         best = better;
-        if cost - problem.cost(&best) <= tolerance(cost) {
+        if before - cost(&best) <= tolerance * before {
             break;
         }
+        equations = match system(&best) {
+            Some(next) => next,
+            None => break,
+        };
     }
     Some(best)
 }
@@ -91,47 +72,8 @@ fn root(relative: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// A straight line through points, of which one is far off.
-    struct Line(Vec<[f64; 2]>);
-
-    impl RobustProblem for Line {
-        type Model = [f64; 2];
-        type System = ([[f64; 2]; 2], [f64; 2]);
-
-        fn system(&self, line: &[f64; 2]) -> Option<Self::System> {
-            let (mut normal, mut right) = ([[0.0; 2]; 2], [0.0; 2]);
-            for [x, y] in &self.0 {
-                let off = y - line[0] - line[1] * x;
-                let row = [1.0, *x];
-                for i in 0..2 {
-                    (0..2).for_each(|k| normal[i][k] += weight(off) * row[i] * row[k]);
-                    right[i] += weight(off) * row[i] * off;
-                }
-            }
-            Some((normal, right))
-        }
-
-        fn stepped(
-            &self,
-            line: &[f64; 2],
-            system: &Self::System,
-            damping: f64,
-        ) -> Option<[f64; 2]> {
-            let ([[a, b], [_, d]], [p, q]) = *system;
-            let (a, d) = (a * (1.0 + damping), d * (1.0 + damping));
-            let area = a * d - b * b;
-            Some([
-                line[0] + (d * p - b * q) / area,
-                line[1] + (a * q - b * p) / area,
-            ])
-        }
-
-        fn cost(&self, line: &[f64; 2]) -> f64 {
-            let off = |[x, y]: &[f64; 2]| penalty(y - line[0] - line[1] * x);
-            self.0.iter().map(off).sum()
-        }
-    }
+    use crate::math::least_squares::LeastSquares;
+    use nalgebra::SVector;
 
     /// Pseudo-Huber penalty of a residual over its outlier threshold.
     fn penalty(relative: f64) -> f64 {
@@ -143,7 +85,23 @@ mod tests {
         let on = |i: usize| [i as f64, 3.0 + 0.5 * i as f64];
         let mut points: Vec<_> = (0..21).map(on).collect();
         points[4][1] += 1000.0;
-        let line = fit(&Line(points), [0.0; 2], |cost| 1e-12 * cost).unwrap();
+        let off = |line: &[f64; 2], [x, y]: &[f64; 2]| y - line[0] - line[1] * x;
+        let system = |line: &[f64; 2]| {
+            let mut fit = LeastSquares::<2>::new();
+            for point in &points {
+                let off = off(line, point);
+                fit.add(&SVector::from([1.0, point[0]]), [off], weight(off));
+            }
+            Some(fit)
+        };
+        let step = |line: &[f64; 2], system: &LeastSquares<2>, damping: f64| {
+            let mut damped = system.clone();
+            damped.add_ridge(&[0, 1].map(|k| damping * system.matrix[(k, k)]));
+            let step = damped.solve()?;
+            Some([line[0] + step[0], line[1] + step[1]])
+        };
+        let cost = |line: &[f64; 2]| points.iter().map(|p| penalty(off(line, p))).sum();
+        let line = fit([0.0; 2], system, step, cost, 1e-12).unwrap();
         assert!(
             (line[0] - 3.0).abs() < 0.2 && (line[1] - 0.5).abs() < 0.02,
             "{line:?}"

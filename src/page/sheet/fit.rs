@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::grid::SheetGrid;
 use super::problem::{ResidualRow, SheetProblem};
 use crate::math::bordered::BorderedSystem;
-use crate::page::robust_fit::{self, RobustProblem};
+use crate::page::robust_fit;
 
 /// Number of unknowns besides the sheet's nodes and lines: focal length, two coordinates of the principal point, ratio
 /// of the page's sides.
@@ -39,7 +39,21 @@ impl FittedSheet {
 impl SheetProblem {
     /// Finds the sheet that fits the photo best, from an initial guess. None if that is not in front of the camera.
     pub fn solve(&self, start: FittedSheet) -> Option<FittedSheet> {
-        robust_fit::fit(self, self.with_cost(start)?, |cost| COST_TOLERANCE * cost)
+        self.solve_to(start, COST_TOLERANCE)
+    }
+
+    /// Finds that sheet until a step lowers the cost by no more than the share `tolerance`.
+    pub(super) fn solve_to(&self, start: FittedSheet, tolerance: f64) -> Option<FittedSheet> {
+        robust_fit::fit(
+            self.with_cost(start)?,
+            |sheet| self.system(sheet),
+            |sheet, system: &BorderedSystem, damping| {
+                let (banded, bordered) = system.solve(damping)?;
+                self.with_cost(moved(sheet, &banded, &bordered))
+            },
+            |sheet| sheet.cost,
+            tolerance,
+        )
     }
 
     /// Returns a sheet with its cost: the sum of the robust penalties of its weighted residuals. None if the sheet is not in
@@ -49,12 +63,8 @@ impl SheetProblem {
         self.visit(&sheet.grid, &sheet.levels, &mut |row| cost += row.penalty())?;
         cost.is_finite().then_some(FittedSheet { cost, ..sheet })
     }
-}
 
-impl RobustProblem for SheetProblem {
-    type Model = FittedSheet;
-    type System = BorderedSystem;
-
+    /// The normal equations of a sheet's robust least-squares problem; None if the sheet is not in front of the camera.
     fn system(&self, sheet: &FittedSheet) -> Option<BorderedSystem> {
         let grid = &sheet.grid;
         let half_width = 3 * 2 * grid.cols + 2;
@@ -66,20 +76,6 @@ impl RobustProblem for SheetProblem {
             system.add(&banded, &bordered, row.value);
         })?;
         Some(system)
-    }
-
-    fn stepped(
-        &self,
-        sheet: &FittedSheet,
-        system: &BorderedSystem,
-        damping: f64,
-    ) -> Option<FittedSheet> {
-        let (banded, bordered) = system.solve(damping)?;
-        self.with_cost(moved(sheet, &banded, &bordered))
-    }
-
-    fn cost(&self, sheet: &FittedSheet) -> f64 {
-        sheet.cost
     }
 }
 

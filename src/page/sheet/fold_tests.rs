@@ -8,7 +8,6 @@ use super::grid::{SheetGrid, node_shares};
 use super::plane::CameraPrior;
 use super::polyline::Polyline;
 use super::problem::{LevelLine, ResidualRow, SheetProblem, SheetWeights};
-use crate::page::robust_fit;
 
 const PAGE_RATIO: f64 = 1.4;
 
@@ -180,9 +179,7 @@ fn a_fold_that_halves_the_page_is_moved_to_the_middle_as_far_as_its_deviation_sa
             ..FittedSheet::new(grid.clone())
         };
         let start = problem.with_cost(start).unwrap();
-        robust_fit::fit(&problem, start, |cost| 1e-6 * cost)
-            .unwrap()
-            .levels[0]
+        problem.solve_to(start, 1e-6).unwrap().levels[0]
     };
     let [free, loose, tight] = [None, Some(1.0), Some(1e-4)].map(level);
     assert!((free - 0.47).abs() < 0.005, "{free}");

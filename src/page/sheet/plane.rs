@@ -5,6 +5,7 @@ use nalgebra::{SMatrix, SVector, Vector3};
 use super::camera::SheetCamera;
 use super::grid::{SheetGrid, node_shares};
 use crate::math::planar::{cross, difference};
+use crate::page::robust_fit;
 
 /// Prior knowledge about the camera and the ratio of a page's sides.
 #[derive(Debug, Clone, Copy)]
@@ -33,10 +34,6 @@ const RECTANGLE_DEVIATION: f64 = 0.02;
 /// Standard deviation of the logarithm of a page's height over its width where the format is unknown, about the
 /// geometric mean of common formats.
 pub(super) const UNKNOWN_RATIO_DEVIATION: f64 = 0.5;
-
-/// Number of Gauss-Newton steps by which the camera is found for which four corners in the photo are those of a
-/// rectangle.
-const CAMERA_STEPS: usize = 12;
 
 impl CameraPrior {
     /// Returns mean and standard deviation of the logarithm of the page's height over its width. The ratio as seen in
@@ -67,7 +64,7 @@ impl Homography {
     }
 
     /// Finds the camera, and the logarithm of the page's height over its width, for which the homography is nearest to
-    /// the image of a rectangle, given prior knowledge: damped Gauss-Newton steps from the prior's camera.
+    /// the image of a rectangle, given prior knowledge, from the prior's camera on.
     fn camera(&self, prior: &CameraPrior, apparent: f64) -> (SheetCamera, f64) {
         let [ratio, ratio_deviation] = prior.ratio(apparent);
         let start = SVector::<f64, 4>::new(prior.log_scale, 0.0, 0.0, ratio);
@@ -91,32 +88,22 @@ impl Homography {
                 off[3],
             )
         };
-        let mut at = start;
-        let mut here = residuals(&at);
-        let mut damping = 1e-3;
-        for _ in 0..CAMERA_STEPS {
+        let system = |at: &SVector<f64, 4>| {
+            let here = residuals(at);
             let mut jacobian = SMatrix::<f64, 6, 4>::zeros();
             for k in 0..4 {
-                let mut moved = at;
+                let mut moved = *at;
                 moved[k] += 1e-6;
                 jacobian.set_column(k, &((residuals(&moved) - here) / 1e-6));
             }
-            let mut normal = jacobian.transpose() * jacobian;
-            for k in 0..4 {
-                normal[(k, k)] *= 1.0 + damping;
-            }
-            let Some(factor) = normal.cholesky() else {
-                break;
-            };
-            let moved = at - factor.solve(&(jacobian.transpose() * here));
-            let found = residuals(&moved);
-            if found.norm_squared() < here.norm_squared() {
-                (at, here) = (moved, found);
-                damping *= 0.2;
-            } else {
-                damping *= 10.0;
-            }
-        }
+            Some((jacobian.transpose() * jacobian, jacobian.transpose() * here))
+        };
+        let step = |at: &SVector<f64, 4>, (normal, right): &(SMatrix<f64, 4, 4>, _), damping| {
+            let damped = normal + SMatrix::from_diagonal(&(normal.diagonal() * damping));
+            Some(at - damped.cholesky()?.solve(right))
+        };
+        let cost = |at: &SVector<f64, 4>| residuals(at).norm_squared();
+        let at = robust_fit::fit(start, system, step, cost, 0.0).unwrap_or(start);
         let camera = SheetCamera {
             log_scale: at[0],
             centre: [at[1], at[2]],

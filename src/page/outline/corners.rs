@@ -14,19 +14,9 @@ const END_LENGTH_SHARE: f64 = 0.08;
 /// Its row: `benches/page.md`, Constants of the outline.
 const CUT_END_LENGTH_SHARE: f64 = 0.2;
 
-/// Minimum number of points at an edge's end to which a line is fitted.
+/// Maximum distance between the end of an edge and the corner that is found for it, as a share of the edge's length.
 /// Its row: `benches/page.md`, Constants of the outline.
-const MIN_END_POINTS: usize = 6;
-
-/// Maximum distance between the end of an edge and the corner that is found for it within the photo, as a share of the
-/// edge's length.
-/// Its row: `benches/page.md`, Constants of the outline.
-const MAX_CORNER_SHIFT: f64 = 0.06;
-
-/// Maximum distance between the end of an edge and an extrapolated corner outside of the photo, as a share of the
-/// edge's length.
-/// Its row: `benches/page.md`, Constants of the outline.
-const MAX_EXTRAPOLATION: f64 = 0.6;
+const MAX_CORNER_SHIFT: f64 = 0.6;
 
 /// Minimum sine of the angle at which two edges are intersected in a corner.
 /// Its row: `benches/page.md`, Constants of the outline.
@@ -37,9 +27,9 @@ const MIN_CORNER_SINE: f64 = 0.3;
 fn end_line(edge: &[[f64; 2]], share: f64) -> Option<[[f64; 2]; 2]> {
     let n = edge.len();
     let skip = (n as f64 * WORN_END_SHARE) as usize;
-    let take = ((n as f64 * share) as usize).max(MIN_END_POINTS);
+    let take = ((n as f64 * share) as usize).max(2);
     let end = edge.get(skip..(skip + take).min(n))?;
-    if end.len() < MIN_END_POINTS {
+    if end.len() < 2 {
         return None;
     }
     let (mean, [cos, sin]) = principal_line(end);
@@ -49,7 +39,7 @@ fn end_line(edge: &[[f64; 2]], share: f64) -> Option<[[f64; 2]; 2]> {
 /// Finds the corner where two edges meet; both are given as points that begin at that corner. `None` if the edges'
 /// extensions do not intersect near their ends.
 pub(super) fn corner(one: &[[f64; 2]], other: &[[f64; 2]]) -> Option<[f64; 2]> {
-    meeting(one, other, END_LENGTH_SHARE, MAX_CORNER_SHIFT)
+    meeting(one, other, END_LENGTH_SHARE)
 }
 
 /// Extrapolates the corner outside of the image where two edges meet that the image's rim cuts off; both are given as
@@ -60,7 +50,7 @@ pub(super) fn outside_corner(
     other: &[[f64; 2]],
     size: [usize; 2],
 ) -> Option<[f64; 2]> {
-    let point = meeting(one, other, CUT_END_LENGTH_SHARE, MAX_EXTRAPOLATION)?;
+    let point = meeting(one, other, CUT_END_LENGTH_SHARE)?;
     is_outside(point, size, 0.0).then_some(point)
 }
 
@@ -70,10 +60,11 @@ pub(super) fn is_outside(point: [f64; 2], size: [usize; 2], distance: f64) -> bo
 }
 
 /// Intersects two edges' extensions: straight lines fitted to the first share `end` of their points. None if the
-/// intersection is further from either edge's start than the share `shift` of its length.
-fn meeting(one: &[[f64; 2]], other: &[[f64; 2]], end: f64, shift: f64) -> Option<[f64; 2]> {
+/// intersection is far from either edge's start.
+fn meeting(one: &[[f64; 2]], other: &[[f64; 2]], end: f64) -> Option<[f64; 2]> {
     let point = line_intersection(end_line(one, end)?, end_line(other, end)?, MIN_CORNER_SINE)?;
-    let near = |edge: &[[f64; 2]]| distance(edge[0], point) <= shift * polyline_length(edge);
+    let near =
+        |edge: &[[f64; 2]]| distance(edge[0], point) <= MAX_CORNER_SHIFT * polyline_length(edge);
     (near(one) && near(other)).then_some(point)
 }
 

@@ -1,5 +1,6 @@
 //! Print in a photo, by which a page is known: all print lies on it.
 
+use super::edge_path::AVERAGING_RADIUS;
 use super::morphology::box_mean;
 use super::tracing::Views;
 use crate::math::planar::polygon_contains;
@@ -8,9 +9,6 @@ use crate::math::planar::polygon_contains;
 /// print.
 /// Its row: `benches/page.md`, Constants of the outline.
 const MIN_PRINT_CONTRAST: f32 = 0.1;
-
-/// Half the side, in pixels of the reduced photo, of the square over which the structure tensor is averaged: a few letters.
-const LETTERS_RADIUS: usize = 6;
 
 /// Minimum ratio of the smaller to the larger eigenvalue of the structure tensor at print: letters have strokes of all
 /// directions, edges and folds of one.
@@ -45,7 +43,8 @@ impl Print {
             }
         }
         for entry in &mut tensor {
-            box_mean(entry, width, height, LETTERS_RADIUS);
+            // Over a few letters.
+            box_mean(entry, width, height, AVERAGING_RADIUS);
         }
         let is_among_letters: Vec<bool> = (0..raw.len())
             .map(|i| {

@@ -35,19 +35,16 @@ const MIN_EDGE_STRENGTH: f32 = 0.5;
 /// Worth that a path loses at each place for each pixel of print beyond it.
 const PRINT_OUTSIDE_COST: f32 = 0.1;
 
-/// Half the number of rows over which print beyond a path is averaged: about the distance of lines of print.
-/// Its row: `benches/page.md`, Constants of the outline.
-const PRINT_ROWS_RADIUS: usize = 30;
-
 /// Worth that a path loses by a sideways step of one pixel.
 const STEP_COST: f32 = 0.05;
 
 /// Number of paths that are tried on each side of the print.
 const PATHS_PER_SIDE: usize = 4;
 
-/// Length, in pixels, over which an edge's contrast has to keep its sign.
+/// Length, in pixels, over which an edge's contrast has to keep its sign, and half the number of rows over which print beyond a path
+/// is averaged: about the distance of lines of print.
 /// Its row: `benches/page.md`, Constants of the outline.
-const SEGMENT_LENGTH: usize = 40;
+const SEGMENT_LENGTH: usize = AVERAGING_RADIUS * 4;
 
 /// Length beyond a corner over which it is measured whether an edge continues, as a share of the edge.
 const BEYOND_CORNER_SHARE: f64 = 0.12;
@@ -214,7 +211,7 @@ impl PrintFrame {
             for i in (0..beyond.len()).rev().filter(|i| i % reach + 1 < reach) {
                 beyond[i] = beyond[i + 1] + f32::from(u8::from(is_print[index(i + 1)]));
             }
-            vertical_mean(&mut beyond, reach, PRINT_ROWS_RADIUS);
+            vertical_mean(&mut beyond, reach, SEGMENT_LENGTH);
             let (strengths, steps) = &contrasts[axis];
             let worth = |i: usize| {
                 let at = index(i);
@@ -244,8 +241,7 @@ impl PrintFrame {
         let at = frame_place(self.middle, side, row, place);
         let [u, v] = [0, 1].map(|k| self.start[k] + at[k] as f64);
         [0, 1].map(|k| {
-            let inner = self.photo[k] as f64 - 1.0 - PRINT_FRAME_RIM_PIXELS;
-            (u * self.axes[0][k] + v * self.axes[1][k]).clamp(PRINT_FRAME_RIM_PIXELS, inner)
+            (u * self.axes[0][k] + v * self.axes[1][k]).clamp(0.0, self.photo[k] as f64 - 1.0)
         })
     }
 

@@ -7,6 +7,9 @@ use crate::scene::camera::focal_length_of;
 /// Diagonal of the format of 35 mm film (36 by 24 mm), in millimetres.
 const FILM_DIAGONAL_MM: f64 = 43.266_615;
 
+/// Minimum focal length that is accepted, as a multiple of the photo's longer side.
+const MIN_FOCAL_RATIO: f64 = 0.05;
+
 /// Maximum ratio of two lengths of a page or a photo that is accepted: of a page's sides, of focal length and photo,
 /// and of the principal point's coordinates to the photo's diagonal.
 const MAX_LENGTH_RATIO: f64 = 50.0;
@@ -40,9 +43,9 @@ pub(super) fn focal_length(given: FocalLength, size: [f64; 2]) -> Result<Option<
         FocalLength::Film35(length) => ("film35", length, length * diagonal / FILM_DIAGONAL_MM),
     };
     positive(name, value)?;
-    if !(longer / MAX_LENGTH_RATIO..=MAX_LENGTH_RATIO * longer).contains(&found) {
+    if !(MIN_FOCAL_RATIO * longer..=MAX_LENGTH_RATIO * longer).contains(&found) {
         let requirement =
-            "must give between 1/50 of the photo's longer side and 50 times that, in pixels";
+            "must give between 1/20 of the photo's longer side and 50 times that, in pixels";
         return Err(Error::option(name, value, requirement));
     }
     Ok(Some(found))

@@ -1,6 +1,7 @@
 //! Corners of a page with subpixel accuracy: intersections of neighbouring edges.
 
 use crate::math::planar::{cross, distance, line_intersection, polyline_length, principal_line};
+use crate::page::corners::MAX_TRACING_ERROR;
 
 /// Share of an edge's points next to a corner that is left out, because paper is worn and bent there.
 /// Its row: `benches/page.md`, Constants of the outline.
@@ -43,15 +44,16 @@ pub(super) fn corner(one: &[[f64; 2]], other: &[[f64; 2]]) -> Option<[f64; 2]> {
 }
 
 /// Extrapolates the corner outside of the image where two edges meet that the image's rim cuts off; both are given as
-/// points that begin at the rim. `None` if they meet inside of the image of size `size` (width, height), or far from
-/// it.
+/// points that begin at the rim. `None` if they meet inside of the image of size `size` (width, height), or farther outside than
+/// traced edges may be.
 pub(super) fn outside_corner(
     one: &[[f64; 2]],
     other: &[[f64; 2]],
     size: [usize; 2],
 ) -> Option<[f64; 2]> {
     let point = meeting(one, other, CUT_END_LENGTH_SHARE)?;
-    is_outside(point, size, 0.0).then_some(point)
+    let reach = MAX_TRACING_ERROR * (size[0] as f64).hypot(size[1] as f64);
+    (is_outside(point, size, 0.0) && !is_outside(point, size, reach)).then_some(point)
 }
 
 /// Whether a point is outside of an image of size `size` (width, height) by more than `distance` pixels.

@@ -11,9 +11,9 @@ const WORN_END_SHARE: f64 = 0.015;
 /// Its row: `benches/page.md`, Constants of the outline.
 const END_LENGTH_SHARE: f64 = 0.08;
 
-/// Share of an edge's points from which its direction is fitted where the photo's rim cuts the edge off.
+/// Share of an edge from which its direction is fitted where the photo's rim cuts it off, and by which it may continue beyond a corner.
 /// Its row: `benches/page.md`, Constants of the outline.
-const CUT_END_LENGTH_SHARE: f64 = 0.2;
+pub(super) const CUT_END_LENGTH_SHARE: f64 = 0.2;
 
 /// Maximum distance between the end of an edge and the corner that is found for it, as a share of the edge's length.
 /// Its row: `benches/page.md`, Constants of the outline.

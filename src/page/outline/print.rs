@@ -17,6 +17,7 @@ const MIN_PRINT_ISOTROPY: f32 = 0.2;
 
 /// Minimum smaller eigenvalue of the structure tensor at print, in squared logarithmic colour per pixel: crumpled paper has
 /// less.
+/// Its row: `benches/page.md`, Constants of the outline.
 const MIN_PRINT_ENERGY: f32 = 5e-3;
 
 /// The print in a photo.

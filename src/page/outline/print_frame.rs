@@ -4,6 +4,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use super::corners::CUT_END_LENGTH_SHARE;
 use super::edge_path::AVERAGING_RADIUS;
 use super::morphology::{box_mean, vertical_mean};
 use super::planes::Planes;
@@ -27,30 +28,29 @@ const TEXTURE_RADIUS: usize = AVERAGING_RADIUS * 2;
 const MIN_TEXTURE: f32 = 0.002;
 
 /// Contrast of an edge that is surely seen, as a multiple of the texture around it.
+/// Its row: `benches/page.md`, Constants of the outline.
 const CLEAR_EDGE_RATIO: f32 = 5.0;
 
 /// Strength, as a share of that of an edge that is surely seen, below which a place lessens the worth of a path.
+/// Its row: `benches/page.md`, Constants of the outline.
 const MIN_EDGE_STRENGTH: f32 = 0.5;
 
 /// Worth that a path loses at each place for each pixel of print beyond it.
+/// Its row: `benches/page.md`, Constants of the outline.
 const PRINT_OUTSIDE_COST: f32 = 0.1;
 
 /// Worth that a path loses by a sideways step of one pixel.
+/// Its row: `benches/page.md`, Constants of the outline.
 const STEP_COST: f32 = 0.05;
 
 /// Number of paths that are tried on each side of the print.
 const PATHS_PER_SIDE: usize = 4;
 
-/// Length, in pixels, over which an edge's contrast has to keep its sign, and half the number of rows over which print beyond a path
-/// is averaged: about the distance of lines of print.
+/// Length, in pixels, over which an edge's contrast keeps its sign, and half of that over which print beyond a path is averaged.
 /// Its row: `benches/page.md`, Constants of the outline.
 const SEGMENT_LENGTH: usize = AVERAGING_RADIUS * 4;
 
-/// Length beyond a corner over which it is measured whether an edge continues, as a share of the edge.
-const BEYOND_CORNER_SHARE: f64 = 0.12;
-
-/// Penalty of an edge that continues with full strength beyond a corner, as do joints of tiles and folds of a page; from 0 to
-/// 1.
+/// Penalty, from 0 to 1, of an edge that continues with full strength beyond a corner, as joints of tiles and folds do.
 /// Its row: `benches/page.md`, Constants of the outline.
 const BEYOND_CORNER_PENALTY: f64 = 0.8;
 
@@ -291,7 +291,7 @@ impl PrintFrame {
                 let (side, path) = (&self.sides[k], chosen[k]);
                 let (from, to) = (corners[k][1], corners[(k + 1) % 4][0]);
                 let (low, high) = (from.min(to), from.max(to));
-                let reach = (BEYOND_CORNER_SHARE * (high - low) as f64) as usize;
+                let reach = (CUT_END_LENGTH_SHARE * (high - low) as f64) as usize;
                 let before = side.strength(path, low.saturating_sub(reach)..low);
                 let after = side.strength(path, high..(high + reach).min(side.rows));
                 let beyond = before.max(after);

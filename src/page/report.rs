@@ -66,6 +66,9 @@ pub enum PageModel {
     SoftSheet,
 }
 
+/// Displacement not exceeded in 95 of 100 cases where the outline is doubtful, in % of a page's width (`benches/page.md`, Expected error).
+const DOUBTFUL_OUTLINE_ERROR_BOUND: f64 = 12.0;
+
 /// Verdict on a page that was found in a photo, with the measures of its fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
@@ -109,16 +112,18 @@ pub struct PageReport {
 }
 
 impl PageReport {
-    /// Returns the report on a page whose outline was found with doubt: what follows from the outline is doubtful, too.
-    pub fn with_doubtful_outline(self) -> Self {
-        match self.verdict {
-            PageVerdict::Doubtful | PageVerdict::NotThisKind => self,
-            _ => PageReport {
-                verdict: PageVerdict::Doubtful,
-                doubt: Some(PageDoubt::Outline),
-                ..self
-            },
+    /// Returns the report on a page whose outline was found with doubt: what follows from the outline is doubtful, too, and as wrong
+    /// as the outline may be.
+    pub fn with_doubtful_outline(mut self) -> Self {
+        self.error_bound = self.error_bound.max(DOUBTFUL_OUTLINE_ERROR_BOUND);
+        if !matches!(
+            self.verdict,
+            PageVerdict::Doubtful | PageVerdict::NotThisKind
+        ) {
+            self.verdict = PageVerdict::Doubtful;
+            self.doubt = Some(PageDoubt::Outline);
         }
+        self
     }
 
     /// Of the reports on two pages of a spread, the one with the larger expected error, with the lines of both.

@@ -51,7 +51,7 @@ const FINE_GRID_COLS: usize = 25;
 
 /// Number of times that lines of print are detected in the flattened photo and the sheet is fitted to them.
 /// Its row: `benches/page.md`, Models.
-const LINE_DETECTION_ROUNDS: usize = 2;
+const LINE_DETECTION_ROUNDS: usize = 3;
 
 /// Weights of the residuals in the fit of a sheet of smooth paper, which is firm against strain.
 /// Chosen by `benches/page.md`, Beside other ways.

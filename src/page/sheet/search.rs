@@ -202,12 +202,7 @@ pub(super) fn find_sheet(
     } else if figures.lines > MAX_FIRM_LINE_MISFIT {
         let mut crumpled = problem.clone();
         crumpled.weights = CRUMPLED_PAPER_WEIGHTS;
-        crumpled.lines.clear();
-        crumpled.folds.clear();
-        let refined = crumpled.refined(coarse.clone(), &COARSE_GRID_COLS);
-        let found = progress::part(0.6, || {
-            refined.and_then(|coarse| crumpled.with_lines(coarse, &starts, &print))
-        });
+        let found = progress::part(0.6, || crumpled.with_lines(sheet.clone(), &starts, &print));
         if let Some(found) = found {
             (sheet, figures) = found;
             (problem, model) = (crumpled, PageModel::SoftSheet);

@@ -86,8 +86,8 @@ const INITIAL_WEIGHT_RATIO: f64 = 4.0;
 
 /// Distance between lines of print and the lines on a firm sheet that they belong to, in widths of the page, above which
 /// the sheet is fitted again with the weights for crumpled paper: a sheet that wrinkles shorten does not meet them.
-/// Chosen with the weights for crumpled paper by the table of pages in `benches/page.md`.
-const MAX_FIRM_LINE_MISFIT: f64 = 0.0006;
+/// Chosen with the weights for crumpled paper by `benches/page.md`, Models.
+const MAX_FIRM_LINE_MISFIT: f64 = 0.00065;
 
 /// Excess of a plane's cost over that of the sheet up to which the plane is accepted as the page's model: a page lying flat lifts
 /// off its support by a millimetre on A4. Chosen by `benches/page.md`, Models.

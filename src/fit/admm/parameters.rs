@@ -26,6 +26,10 @@ const MIN_COARSE_VERTICES: usize = 500;
 /// from the fine one by more than that (`benches/choices.md`, Schedule by ablation).
 const MIN_COARSE_GAP: f64 = 0.01;
 
+/// Relative duality gap at which ADMM stops on coarse levels of a mesh, unless a larger one is asked for: their clusters
+/// of vertices differ from the mesh by more than those of a lattice (`benches/whole.md`).
+const MIN_COARSE_MESH_GAP: f64 = 0.05;
+
 /// Maximum number of ADMM iterations on a coarse level (`benches/choices.md`): more would save the finer level less
 /// than they cost.
 const MAX_COARSE_ITERATIONS: usize = 200;
@@ -61,7 +65,10 @@ impl AdmmParameters {
         let left = self.max_iterations.saturating_sub(iterations_done);
         let (gap, max_iterations) = match is_coarse {
             true => (
-                self.gap.max(MIN_COARSE_GAP),
+                self.gap.max(match self.is_mesh {
+                    true => MIN_COARSE_MESH_GAP,
+                    false => MIN_COARSE_GAP,
+                }),
                 left.min(MAX_COARSE_ITERATIONS),
             ),
             false => (self.gap, left),

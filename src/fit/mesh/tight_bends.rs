@@ -13,11 +13,11 @@ use super::topology::Topology;
 const COMPARISON_RINGS: usize = 2;
 
 /// Minimum ratio of the squared residuals without a crease to those with it at which the crease is kept: with noise it is
-/// above 2 at folds, and below 1.2 at bends over two edges or more (`benches/irregular.md`).
-const MIN_CREASE_RESIDUAL_RATIO: f64 = 1.5;
+/// above 0.9 at folds, however fine the mesh is, and below 0.65 at bends over four edges or more (`benches/whole.md`).
+const MIN_CREASE_RESIDUAL_RATIO: f64 = 0.75;
 
-/// Restores the surface `before` crease passes around each connected crease that does not explain the given positions
-/// better. Costs `O(vertices)`.
+/// Restores the surface `before` crease passes around each connected crease that explains the given positions
+/// worse. Costs `O(vertices)`.
 pub(super) fn restore_bends(
     given: &MeshInput,
     sides: &SmoothRegions,

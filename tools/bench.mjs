@@ -9,7 +9,7 @@ import { join } from 'node:path';
 import { parse } from './bench/arguments.mjs';
 import { Bench, buildNative } from './bench/bench.mjs';
 import { machine } from './bench/machine.mjs';
-import { document, tables } from './bench/tables.mjs';
+import { document, documentTables, tables } from './bench/tables.mjs';
 import { rule } from './bench/task.mjs';
 import { asMarkdown, asText } from './bench/text.mjs';
 import { build } from './build.mjs';
@@ -36,7 +36,7 @@ await main(async () => {
   for (const table of Object.values(made)) console.log(asText(table));
   for (const { summary } of Object.values(made)) if (summary) console.log(summary);
   console.log(`\n${where}\n${((performance.now() - start) / 1000).toFixed(0)} s`);
-  if (write) await writeFile(join(root, document.path), page(where, names.map((name) => made[name])));
+  if (write) await writeFile(join(root, document.path), page(where, Object.keys(documentTables).map((name) => made[name])));
 });
 
 /**

@@ -88,10 +88,10 @@ impl CorrelatedNoise {
         };
         let found = (2..=noisy).rev().find_map(|count| {
             let starts = count.saturating_sub(MIN_LATE_SCALES) + 1;
+            let trials = Trials::new(&scales[..count], discs);
             (0..starts)
-                .map(|first| (first, &scales[first..count]))
-                .filter(|(first, late)| *first == 0 || late.iter().all(bends_both_ways))
-                .map(|(_, late)| Covariance::fit(late, discs))
+                .filter(|first| *first == 0 || scales[*first..count].iter().all(bends_both_ways))
+                .map(|first| trials.fit(first))
                 .filter(|covariance| may_be_smoothest || !covariance.is_smoothest)
                 .find(|covariance| covariance.misfit < MAX_MISFIT)
         })?;
@@ -122,36 +122,64 @@ struct Covariance {
     misfit: f64,
 }
 
-impl Covariance {
-    /// Fits a covariance of noise to scales: least squares of the logarithms of their white equivalents, over a grid of
-    /// correlation lengths.
-    fn fit(scales: &[CurvatureScale], discs: &[Disc]) -> Self {
+/// White noise that scales show for each correlation length that is tried, if the noise has that length.
+struct Trials {
+    /// Correlation lengths in spacings, and the largest of them that is told from longer ones.
+    lengths: Vec<f64>,
+    longest: f64,
+    /// For each length and each scale, the logarithm of the standard deviation of the noise.
+    logs: Vec<Vec<f64>>,
+    /// For each length, the response of the largest discs.
+    shared_roots: Vec<f64>,
+}
+
+impl Trials {
+    /// Makes the trials over a grid of correlation lengths, up to those that the largest discs show.
+    fn new(scales: &[CurvatureScale], discs: &[Disc]) -> Self {
         let largest = scales.last().map_or(0.0, CurvatureScale::radius);
         let [shortest, longest] = [MIN_LENGTH_RADII, MAX_LENGTH_RADII].map(|radii| radii * largest);
         let step = (longest / shortest).powf(1.0 / f64::from(LENGTH_TRIALS - 1));
         let lengths = (0..LENGTH_TRIALS).map(|trial| shortest * step.powi(trial as i32));
-        let mut best = (f64::INFINITY, 0.0, 0.0);
-        for length in [0.0].into_iter().chain(lengths) {
-            let logs: Vec<f64> = (scales.iter())
-                .map(|scale| (scale.white_equivalent / response(scale, discs, length)).ln())
-                .collect();
+        let lengths: Vec<f64> = [0.0].into_iter().chain(lengths).collect();
+        let log = |scale: &CurvatureScale, length: f64| {
+            (scale.white_equivalent / response(scale, discs, length)).ln()
+        };
+        Trials {
+            logs: (lengths.iter())
+                .map(|length| scales.iter().map(|scale| log(scale, *length)).collect())
+                .collect(),
+            // No more of the noise is taken for granted than the largest discs show.
+            shared_roots: (lengths.iter())
+                .map(|length| {
+                    scales
+                        .last()
+                        .map_or(1.0, |scale| response(scale, discs, *length))
+                })
+                .collect(),
+            lengths,
+            longest: longest / step.sqrt(),
+        }
+    }
+
+    /// Fits a covariance to the scales from the `first` on: least squares of the logarithms.
+    fn fit(&self, first: usize) -> Covariance {
+        let mut best = (f64::INFINITY, 0, 0.0);
+        for (trial, logs) in self.logs.iter().enumerate() {
+            let logs = &logs[first..];
             let mean = logs.iter().sum::<f64>() / logs.len() as f64;
-            let misfit = logs.iter().map(|log| (log - mean).powi(2)).sum::<f64>();
+            let squares = logs.iter().map(|log| (log - mean).powi(2)).sum::<f64>();
+            let misfit = (squares / logs.len() as f64).sqrt();
             if misfit < best.0 {
-                best = (misfit, length, mean.exp());
+                best = (misfit, trial, mean.exp());
             }
         }
-        let (misfit, length, sigma) = best;
-        // No more of the noise is taken for granted than the largest discs show.
-        let shared_root = scales
-            .last()
-            .map_or(1.0, |scale| response(scale, discs, length));
+        let (misfit, trial, sigma) = best;
         Covariance {
             sigma,
-            length,
-            is_smoothest: length > longest / step.sqrt(),
-            shared_root,
-            misfit: (misfit / scales.len() as f64).sqrt(),
+            length: self.lengths[trial],
+            is_smoothest: self.lengths[trial] > self.longest,
+            shared_root: self.shared_roots[trial],
+            misfit,
         }
     }
 }

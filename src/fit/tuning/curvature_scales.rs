@@ -69,26 +69,55 @@ impl Disc {
             deviation: squares.sqrt(),
         })
     }
+}
 
-    /// Computes the Hessian of the quadratic fitted in the disc about a vertex, for a spacing of 1; `None` where a
-    /// height of the disc is missing.
-    fn hessian(&self, heights: &Heightfield, row: isize, col: isize) -> Option<Sym2> {
-        let mut entries = [0.0; 3];
-        for (offset, coefficients) in self.offsets.iter().zip(&self.hessian) {
-            let (row, col) = stepped(row, col, *offset);
-            if !heights.lattice().contains(row, col) {
-                return None;
-            }
-            let height = heights.height(row as usize, col as usize);
-            if height.is_nan() {
-                return None;
-            }
-            for (entry, coefficient) in entries.iter_mut().zip(coefficients) {
-                *entry += coefficient * height;
-            }
+/// Hessians of the quadratics that are fitted to heights in discs of one size, each computed when it is first asked for.
+struct Hessians<'a> {
+    heights: &'a Heightfield,
+    disc: &'a Disc,
+    /// Steps from a disc's centre to its vertices, in indices of heights, for a centre in an even and in an odd row.
+    steps: [Vec<isize>; 2],
+    known: Vec<Option<Option<Sym2>>>,
+}
+
+impl<'a> Hessians<'a> {
+    fn new(heights: &'a Heightfield, disc: &'a Disc) -> Result<Self> {
+        let lattice = heights.lattice();
+        let steps = [0, 1].map(|row| {
+            let to = disc.offsets.iter().map(|offset| stepped(row, 0, *offset));
+            to.map(|(to, col)| (to - row) * lattice.cols() as isize + col)
+                .collect()
+        });
+        let known = try_filled("curvatures", lattice.len(), None)?;
+        Ok(Hessians {
+            heights,
+            disc,
+            steps,
+            known,
+        })
+    }
+
+    /// Returns the Hessian in the disc about a vertex, for a spacing of 1; `None` where a height of the disc is missing.
+    fn at(&mut self, row: isize, col: isize) -> Option<Sym2> {
+        let lattice = self.heights.lattice();
+        let reach = self.disc.radius as isize;
+        let is_inside = |at: isize, size: usize| (reach..size as isize - reach).contains(&at);
+        if !is_inside(row, lattice.rows()) || !is_inside(col, lattice.cols()) {
+            return None;
         }
-        let [xx, xy, yy] = entries;
-        Some(Sym2::new(xx, xy, yy))
+        let centre = lattice.index(row as usize, col as usize);
+        *self.known[centre].get_or_insert_with(|| {
+            let mut entries = [0.0; 3];
+            let steps = &self.steps[row as usize % 2];
+            for (step, coefficients) in steps.iter().zip(&self.disc.hessian) {
+                let height = self.heights.heights()[centre.wrapping_add_signed(*step)];
+                for (entry, coefficient) in entries.iter_mut().zip(coefficients) {
+                    *entry += coefficient * height;
+                }
+            }
+            let [xx, xy, yy] = entries;
+            xx.is_finite().then(|| Sym2::new(xx, xy, yy))
+        })
     }
 }
 
@@ -170,9 +199,11 @@ pub(super) fn curvature_scales(input: &Input, discs: &[Disc]) -> Result<Vec<Curv
     for lattice in 0..MAX_LATTICES {
         let mut measured: Vec<_> = (0..discs.len()).map(|disc| (disc, None)).collect();
         fork::for_each(&mut measured, |_, (disc, to)| {
-            *to = measure(&means.field, lattice, *disc, &discs[*disc]);
+            *to = Some(measure(&means.field, lattice, *disc, &discs[*disc]));
         });
-        scales.extend(measured.into_iter().filter_map(|(_, scale)| scale));
+        for (_, scale) in measured {
+            scales.extend(scale.transpose()?.flatten());
+        }
         if means.field.lattice().rows() < 8 || means.field.lattice().cols() < 8 {
             break;
         }
@@ -183,12 +214,16 @@ pub(super) fn curvature_scales(input: &Input, discs: &[Disc]) -> Result<Vec<Curv
 }
 
 /// Measures the curvatures of heights on the `lattice`-th lattice in discs of one size; `None` if none of them is measured.
+///
+/// # Errors
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
 fn measure(
     heights: &Heightfield,
     lattice: usize,
     index: usize,
     disc: &Disc,
-) -> Option<CurvatureScale> {
+) -> Result<Option<CurvatureScale>> {
+    let mut hessians = Hessians::new(heights, disc)?;
     let step = |size: usize| size.div_ceil(MAX_CENTRE_ROWS).max(1);
     let [rows, cols] = [heights.lattice().rows(), heights.lattice().cols()];
     let beside = 2 * disc.radius as isize + 1;
@@ -198,14 +233,14 @@ fn measure(
     let (mut signs, mut cosines) = (0.0, [(0.0, 0.0); 3]);
     for row in (0..rows as isize).step_by(step(rows)) {
         for col in (0..cols as isize).step_by(step(cols)) {
-            let Some(hessian) = disc.hessian(heights, row, col) else {
+            let Some(hessian) = hessians.at(row, col) else {
                 continue;
             };
             let mut ring = Vec::with_capacity(6);
             for ((rows, half), cosine) in directions.into_iter().zip(&mut cosines) {
                 for offset in [(rows, half), (-rows, -half)] {
                     let (row, col) = stepped(row, col, offset);
-                    if let Some(other) = disc.hessian(heights, row, col) {
+                    if let Some(other) = hessians.at(row, col) {
                         let norms = (hessian.dot(hessian) * other.dot(other)).sqrt();
                         if norms > 0.0 {
                             cosine.0 += hessian.dot(other) / norms;
@@ -233,18 +268,28 @@ fn measure(
     let [along_rows, across_rows] = &mut derivatives;
     let count = along.len();
     let unit = MAD_TO_SIGMA / disc.deviation * f64::from(1u32 << lattice);
-    Some(CurvatureScale {
+    let medians = [along, across, across_rows, along_rows].map(|values| median(values));
+    let [
+        Some(along),
+        Some(across),
+        Some(across_rows),
+        Some(along_rows),
+    ] = medians
+    else {
+        return Ok(None);
+    };
+    Ok(Some(CurvatureScale {
         lattice,
         disc: index,
         count,
-        white_equivalent: unit * median(along)?,
-        white_equivalent_across: unit * median(across)?,
+        white_equivalent: unit * along,
+        white_equivalent_across: unit * across,
         coherence: signs / count as f64,
-        anisotropy: median(across_rows)? / median(along_rows)?,
+        anisotropy: across_rows / along_rows,
         likeness: (cosines.iter().filter(|(_, count)| *count > 0.0))
             .map(|(sum, count)| sum / count)
             .fold(1.0, f64::min),
-    })
+    }))
 }
 
 /// Returns the direction in which Hessians bend least, as the cosine and the sine of its angle: the eigenvector of the sum of
@@ -298,13 +343,14 @@ mod tests {
         let field = field.unwrap();
         for radius in DISC_RADII {
             let disc = Disc::new(radius).unwrap();
+            let mut hessians = Hessians::new(&field, &disc).unwrap();
             for (row, col) in [(9, 9), (10, 9), (8, 12)] {
-                let [xx, xy, yy] = disc.hessian(&field, row, col).unwrap().entries();
+                let [xx, xy, yy] = hessians.at(row, col).unwrap().entries();
                 for (found, known) in [(xx, 0.3), (xy, 0.1), (yy, -0.2)] {
                     assert!((found - known).abs() < 1e-11, "{found} {known}");
                 }
             }
-            assert!(disc.hessian(&field, 1, 9).is_none());
+            assert!(hessians.at(1, 9).is_none());
         }
     }
 }

@@ -186,6 +186,11 @@ impl ComponentSolver {
         &self.domain
     }
 
+    /// The time from which the report counts seconds.
+    pub(super) fn started(&self) -> Instant {
+        self.started
+    }
+
     /// The options of the solve.
     pub(super) fn options(&self) -> &Options {
         &self.options

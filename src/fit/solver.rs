@@ -7,22 +7,18 @@ use web_time::Instant;
 
 use super::component_solver::{ComponentSolver, PreparedInput, StartMode, Status};
 use super::input::Input;
-use super::options::{HuberOptions, Options};
+use super::options::Options;
 use super::report::{LambdaChoice, LambdaReason, Progress, StopReason};
 use super::surface::Surface;
 use super::threads::Threads;
 use super::tuning::closed_form::{self, InputStatistics};
-use super::tuning::line_residuals::level_lines;
+use super::tuning::levelling::Levelling;
 use super::tuning::noise::Noise;
 use super::tuning::refinement::{MAX_NOISE_DISTANCE, MAX_RESIDUAL, Next, Refinement};
 use super::tuning::residual::root_mean_square;
-use super::tuning::search::{Search, trial_options};
+use super::tuning::search::Search;
 use super::warm_start::WarmStart;
 use crate::error::Result;
-
-/// Number of solves by whose residuals rows and columns are levelled, one after the other: each leaves less of the offsets
-/// (`benches/scenes.md`, Offsets of rows).
-const LEVELLING_SOLVES: usize = 3;
 
 /// A solve that runs in steps, so that its caller can look at it, draw, or stop
 /// it in between.
@@ -55,18 +51,6 @@ pub struct Solver {
     threads: Threads,
 }
 
-/// Levelling of an input's rows and columns, which have offsets, in progress.
-#[derive(Debug, Clone, Copy)]
-struct Levelling {
-    /// Options that were asked for.
-    asked: Options,
-    /// Number of solves so far, with the present one.
-    solves: usize,
-    /// ADMM iterations of the solves before.
-    iterations: usize,
-    started: Instant,
-}
-
 impl Solver {
     /// Sets up a solve; the first calls of [`Solver::advance`] do the costly part. Memory: about 180 bytes for each
     /// vertex of the valid vertices' bounding box.
@@ -93,27 +77,21 @@ impl Solver {
         };
         let prepared = PreparedInput::new(input)?;
         let threads = Threads::new(options.threads, &prepared.domain);
-        let levelling = Levelling {
-            asked: *options,
-            solves: 0,
-            iterations: 0,
-            started,
-        };
-        threads.run(|| Solver::start(prepared, levelling, threads, warm_start))
+        let asked = options.with_energy_for(is_design);
+        threads.run(|| Solver::start(prepared, asked, [0; 2], threads, warm_start, started))
     }
 
-    /// Chooses the options that are not given, and sets up the solve.
+    /// Chooses the options that are not given, and sets up the solve. The input has been levelled by some numbers of solves and
+    /// of iterations.
     fn start(
         prepared: PreparedInput,
-        mut levelling: Levelling,
+        asked: Options,
+        [solves, iterations]: [usize; 2],
         threads: Threads,
         warm_start: Option<Arc<WarmStart>>,
+        started: Instant,
     ) -> Result<Self> {
-        let started = levelling.started;
-        let is_design = prepared.input.is_design();
-        let asked = levelling.asked.with_energy_for(is_design);
-        levelling.solves += 1;
-        let mut is_levelling = false;
+        let mut levelling = None;
         let statistics = InputStatistics::of(&prepared.input, &asked)?;
         let InputStatistics { scale, noise, .. } = statistics;
         let (mut options, mut choice) = (asked, None);
@@ -122,35 +100,27 @@ impl Solver {
             let (first, found, aim) = closed_form::initial_options(&asked, statistics);
             options = first;
             let [offset_rows, offset_columns] = prepared.input.offset_lines();
-            is_levelling = found.reason == LambdaReason::Noise
-                && (offset_rows || offset_columns)
-                && !prepared.input.is_levelled;
             choice = Some(LambdaChoice {
                 offset_rows,
                 offset_columns,
-                solves: levelling.solves - 1,
-                iterations: levelling.iterations,
+                solves,
+                iterations,
                 ..found
             });
-            if let Some(aim) = aim.filter(|_| !is_levelling) {
+            levelling = Levelling::new(&prepared.input, &asked, statistics)?;
+            if let Some(aim) = aim.filter(|_| levelling.is_none()) {
                 // λ is refined again where the coarse lattice was too coarse for the shape.
                 refinement = Some(Refinement::new(aim, 1.0));
                 search = Search::new(&prepared.input, &first, statistics, aim)?;
             }
         }
-        if is_levelling {
-            options = Options {
-                max_iterations: options.max_iterations,
-                ..trial_options(&options, HuberOptions::ANY)
-            };
-        }
         let options = closed_form::with_huber_defaults(&options, noise, scale);
-        let start_mode = match search {
-            Some(_) => StartMode::Deferred,
-            None => StartMode::Immediate,
+        let start_mode = match search.is_some() || levelling.is_some() {
+            true => StartMode::Deferred,
+            false => StartMode::Immediate,
         };
         Ok(Solver {
-            levelling: is_levelling.then_some(levelling),
+            levelling,
             search,
             choice,
             refinement,
@@ -196,13 +166,13 @@ impl Solver {
     /// Continues the solve on the threads that this is called on.
     fn continue_solve(&mut self, work: usize) -> Result<Status> {
         let mut left = work.max(1);
-        while let Some(levelling) = self.levelling
+        while let Some(levelling) = &mut self.levelling
             && self.solve.status() == Status::Running
         {
-            if self.solve.advance(&mut left)? == Status::Running {
+            if !levelling.advance(&mut left)? {
                 return Ok(Status::Running);
             }
-            self.begin_levelled(levelling)?;
+            self.begin_levelled()?;
         }
         while let Some(search) = &mut self.search
             && self.solve.status() == Status::Running
@@ -221,19 +191,18 @@ impl Solver {
         Ok(Status::Running)
     }
 
-    /// Takes out of the heights what the surface leaves along rows and columns, and starts anew from these.
-    fn begin_levelled(&mut self, mut levelling: Levelling) -> Result<()> {
-        let surface = self.solve.surface()?;
-        levelling.iterations += surface.report().iterations;
-        let (input, domain) = (self.solve.input(), self.solve.domain());
-        let mut levelled = level_lines(input, domain, surface.heightfield())?;
-        levelled.is_levelled = levelling.solves == LEVELLING_SOLVES;
-        let prepared = PreparedInput {
-            input: levelled,
-            domain: domain.clone(),
+    /// Starts anew from the heights that have been levelled.
+    fn begin_levelled(&mut self) -> Result<()> {
+        let Some(levelling) = self.levelling.take() else {
+            return Ok(());
         };
+        let done = [levelling.solves, levelling.iterations];
+        let (input, domain) = (levelling.input, self.solve.domain().clone());
         let warm_start = self.solve.warm_start(input.field.lattice());
-        *self = Solver::start(prepared, levelling, self.threads, warm_start)?;
+        let (threads, started) = (self.threads, self.solve.started());
+        let prepared = PreparedInput { input, domain };
+        let asked = levelling.asked;
+        *self = Solver::start(prepared, asked, done, threads, warm_start, started)?;
         Ok(())
     }
 

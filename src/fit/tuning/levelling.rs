@@ -1,48 +1,145 @@
-//! Levelling of rows and columns by what a surface leaves of the heights along them.
+//! Levelling of rows and columns by what surfaces leave of the heights along them.
 //!
 //! The pixels of an image show by themselves that its lines are offset, but of these offsets only the part that changes from line
 //! to line ([`HeightImage::repaired`](crate::HeightImage::repaired)). The rest looks like a shape that is alike all along a line. A surface
-//! of low energy follows it less than it follows shapes, and leaves some of it behind, each time that it is solved for.
+//! of low energy follows it less than it follows shapes, and leaves some of it behind, each time that it is solved for. As this
+//! rest changes slowly from line to line, a coarse lattice shows it.
 
+use super::closed_form::{InputStatistics, initial_options};
+use super::merge::merge;
 use super::residual::residuals;
+use super::search::{interior_len, trial, trial_options};
 use crate::error::Result;
+use crate::fit::component_solver::{ComponentSolver, Status};
 use crate::fit::input::Input;
+use crate::fit::options::{HuberOptions, Options};
+use crate::fit::report::LambdaReason;
 use crate::heights::heightfield::Heightfield;
-use crate::lattice::domain::Domain;
 use crate::math::statistics::median;
 
-/// Returns an input without the medians of what a surface leaves along each row, and along each column, where the lines of its image
-/// are offset.
-///
-/// # Errors
-/// Out of memory.
-pub(crate) fn level_lines(input: &Input, domain: &Domain, surface: &Heightfield) -> Result<Input> {
-    let lattice = *input.field.lattice();
-    let [rows, cols] = [lattice.rows(), lattice.cols()];
-    let mut residuals = residuals(input, domain, surface, 1.0)?;
-    let mut heights = input.field.heights().to_vec();
-    // Every odd row is half a spacing to the left.
-    let row = |vertex: usize| vertex / cols;
-    let column = |vertex: usize| 2 * (vertex % cols) + 1 - row(vertex) % 2;
-    let axes: [(&dyn Fn(usize) -> usize, usize); 2] = [(&row, rows), (&column, 2 * cols)];
-    for ((line, count), is_offset) in axes.into_iter().zip(input.offset_lines()) {
-        if !is_offset {
-            continue;
+/// Number of coarse solves by whose residuals rows and columns are levelled, one after the other: each leaves less of the offsets
+/// (`benches/scenes.md`, Offsets of rows).
+const LEVELLING_SOLVES: usize = 3;
+
+/// Levelling of an input whose rows or columns are offset, in progress.
+#[derive(Debug, Clone)]
+pub(crate) struct Levelling {
+    pub asked: Options,
+    /// Options of the coarse solves.
+    options: Options,
+    statistics: InputStatistics,
+    /// Input at full size, levelled as far as it is.
+    pub input: Input,
+    coarse: Input,
+    solve: Box<ComponentSolver>,
+    /// Numbers of solves and of their ADMM iterations so far.
+    pub solves: usize,
+    pub iterations: usize,
+}
+
+impl Levelling {
+    /// Starts the levelling of an input for a solve with the options that were `asked` for; `None` where it has no offsets beside noise,
+    /// or too few vertices.
+    ///
+    /// # Errors
+    /// Out of memory, and errors of the solver.
+    pub(crate) fn new(
+        input: &Input,
+        asked: &Options,
+        statistics: InputStatistics,
+    ) -> Result<Option<Self>> {
+        let (options, choice, _) = initial_options(asked, statistics);
+        let has_offsets = input.offset_lines() != [false; 2] && !input.is_levelled;
+        if choice.reason != LambdaReason::Noise || !has_offsets {
+            return Ok(None);
         }
-        let mut lines = vec![Vec::new(); count];
-        for (vertex, residual) in residuals.iter().enumerate() {
-            if residual.is_finite() && !input.is_constrained(vertex) {
-                lines[line(vertex)].push(*residual);
+        let coarse = merge(input)?;
+        if interior_len(&coarse) == 0 {
+            return Ok(None);
+        }
+        let options = trial_options(&options, HuberOptions::ANY);
+        let solve = trial(&coarse, &options, statistics, None)?;
+        Ok(Some(Levelling {
+            asked: *asked,
+            options,
+            statistics,
+            input: input.clone(),
+            coarse,
+            solve: Box::new(solve),
+            solves: 0,
+            iterations: 0,
+        }))
+    }
+
+    /// Continues until `left` conjugate-gradient iterations are used up; returns whether the input is levelled.
+    pub(crate) fn advance(&mut self, left: &mut usize) -> Result<bool> {
+        while *left > 0 {
+            if self.solve.advance(left)? == Status::Running {
+                continue;
+            }
+            self.iterations += self.solve.progress().iteration;
+            self.solves += 1;
+            self.level()?;
+            if self.solves == LEVELLING_SOLVES {
+                self.input.is_levelled = true;
+                return Ok(true);
+            }
+            let warm_start = self.solve.warm_start(self.coarse.field.lattice());
+            self.coarse = merge(&self.input)?;
+            *self.solve = trial(&self.coarse, &self.options, self.statistics, warm_start)?;
+        }
+        Ok(false)
+    }
+
+    /// Takes the medians of what the coarse surface leaves along each row, and along each column, out of the input where lines
+    /// of its image are offset, interpolated between the coarse lines.
+    fn level(&mut self) -> Result<()> {
+        let surface = self.solve.surface()?;
+        let (domain, surface) = (self.solve.domain(), surface.heightfield());
+        let mut residuals = residuals(&self.coarse, domain, surface, 1.0)?;
+        let mut heights = self.input.field.heights().to_vec();
+        let is_offset = self.input.offset_lines();
+        for axis in [0, 1].into_iter().filter(|axis| is_offset[*axis]) {
+            let coarse_line = |vertex| lines(&self.coarse, vertex)[axis];
+            let mut along: Vec<Vec<f64>> = Vec::new();
+            for (vertex, residual) in residuals.iter().enumerate() {
+                let line = coarse_line(vertex);
+                along.resize_with(along.len().max(line + 1), Vec::new);
+                along[line].extend(Some(*residual).filter(|residual| residual.is_finite()));
+            }
+            let offsets: Vec<Option<f64>> = along.iter_mut().map(|line| median(line)).collect();
+            for (vertex, residual) in residuals.iter_mut().enumerate() {
+                *residual -= offsets[coarse_line(vertex)].unwrap_or(0.0);
+            }
+            let known: Vec<[f64; 2]> = (offsets.iter().enumerate())
+                .filter_map(|(line, offset)| Some([line as f64, (*offset)?]))
+                .collect();
+            // The mean of the four vertices of a rhombus is half a line behind the first row, and before the second column.
+            let shift = [-0.5, 0.5][axis];
+            for vertex in (0..heights.len()).filter(|vertex| !self.input.is_constrained(*vertex)) {
+                let line = 0.5 * (lines(&self.input, vertex)[axis] as f64 + shift);
+                heights[vertex] -= interpolated(&known, line);
             }
         }
-        let offset = |line: &mut Vec<f64>| median(line).unwrap_or(0.0);
-        let offsets: Vec<f64> = lines.iter_mut().map(offset).collect();
-        for vertex in (0..heights.len()).filter(|vertex| !input.is_constrained(*vertex)) {
-            heights[vertex] -= offsets[line(vertex)];
-            residuals[vertex] -= offsets[line(vertex)];
-        }
+        self.input.field = Heightfield::new(*self.input.field.lattice(), heights)?;
+        Ok(())
     }
-    let mut levelled = input.clone();
-    levelled.field = Heightfield::new(lattice, heights)?;
-    Ok(levelled)
+}
+
+/// Numbers of the row and of the column that a vertex is in, the columns in steps of half a spacing: every odd row is half a spacing
+/// to the left.
+fn lines(input: &Input, vertex: usize) -> [usize; 2] {
+    let cols = input.field.lattice().cols();
+    let row = vertex / cols;
+    [row, 2 * (vertex % cols) + 1 - row % 2]
+}
+
+/// Interpolates between points `[x, y]` with increasing `x`; beyond the first and the last, their `y` goes on. 0 without points.
+fn interpolated(points: &[[f64; 2]], x: f64) -> f64 {
+    let after = points.partition_point(|[at, _]| *at < x);
+    match (points.get(after.wrapping_sub(1)), points.get(after)) {
+        (Some([left, a]), Some([right, b])) => a + (b - a) * (x - left) / (right - left),
+        (Some([_, y]), None) | (None, Some([_, y])) => *y,
+        (None, None) => 0.0,
+    }
 }

@@ -3,7 +3,7 @@
 pub(crate) mod closed_form;
 mod correlated_noise;
 mod curvature_scales;
-pub(crate) mod line_residuals;
+pub(crate) mod levelling;
 pub(crate) mod merge;
 pub(crate) mod noise;
 pub(crate) mod refinement;

@@ -282,7 +282,7 @@ impl Comparison {
     }
 }
 
-fn interior_len(input: &Input) -> usize {
+pub(super) fn interior_len(input: &Input) -> usize {
     input.domain().map_or(0, |domain| domain.interior_len())
 }
 
@@ -313,7 +313,7 @@ pub(crate) fn trial_options(first: &Options, penalty: HuberOptions) -> Options {
 }
 
 /// Starts a coarse solve.
-fn trial(
+pub(super) fn trial(
     input: &Input,
     options: &Options,
     InputStatistics { scale, noise, .. }: InputStatistics,

@@ -2,16 +2,15 @@
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use std::collections::hash_map::Entry;
 
 use nalgebra::Vector3;
-use rustc_hash::FxHashMap;
 
 use crate::error::{Result, try_filled};
 use crate::math::index::NO_INDEX;
 use crate::math::statistics::median;
 use crate::math::union_find::UnionFind;
 use crate::scene::half_edges::{half_edge_ends, twin_half_edges};
+use crate::scene::region_graph::RegionGraph;
 
 /// Smallest and largest threshold, in radians, that separates angles between facets of a smooth part from those of
 /// creases: facets that approximate a round shape fold by less than the maximum, and residual noise by less than the
@@ -98,9 +97,9 @@ impl Facets {
         let fold = fold.max(0.5 * bend);
         let heights = self.heights();
         let mut labels = self.basins(&heights, 0.5 * bend)?;
-        self.merge(&mut labels, fold)?;
+        self.merge(&mut labels, fold);
         self.dissolve_small_parts(&mut labels, share);
-        self.merge(&mut labels, fold)?;
+        self.merge(&mut labels, fold);
         Ok(labels)
     }
 
@@ -208,105 +207,18 @@ impl Facets {
     }
 
     /// Merges neighbouring parts that fold by less than `fold` on average, in radians, those that fold least first.
-    fn merge(&self, labels: &mut [u32], fold: f64) -> Result<()> {
-        let mut sets = UnionFind::new("patches", labels.len())?;
-        let mut regions = Regions {
-            between: FxHashMap::default(),
-            around: try_filled("patches", labels.len(), Vec::new())?,
-            queue: BinaryHeap::new(),
-            fold,
-        };
+    fn merge(&self, labels: &mut [u32], fold: f64) {
+        let mut graph = RegionGraph::new(labels.len(), fold, 0.0);
         for (side, twin) in self.pairs() {
             let [a, b] = [side, twin].map(|side| labels[side / 3]);
             if a != b {
-                let own = [self.lengths[side] * self.angles[side], self.lengths[side]];
-                regions.add(a, b, own);
+                let length = self.lengths[side];
+                graph.add_border(a, b, [length * self.angles[side], length]);
             }
         }
-        for a in 0..labels.len() as u32 {
-            regions.enqueue_borders(a);
-        }
-        while let Some((a, b)) = regions.next() {
-            sets.union(a, b);
-            regions.join(a, b);
-        }
+        graph.merge_flat();
         for label in labels {
-            *label = sets.find(*label);
-        }
-        Ok(())
-    }
-}
-
-/// Parts of a mesh and the borders between them, while parts are merged: the integral of the angle along each border,
-/// and its length.
-struct Regions {
-    /// Integral of the angle and length of each border, by the labels of both parts, the lower one first.
-    between: FxHashMap<(u32, u32), [f64; 2]>,
-    /// Labels of each part's neighbours, some of which may have been merged into others.
-    around: Vec<Vec<u32>>,
-    /// Queue of pairs of parts, ordered by their mean angle at the time when they were added.
-    queue: BinaryHeap<Reverse<(u64, u32, u32)>>,
-    fold: f64,
-}
-
-impl Regions {
-    fn add(&mut self, a: u32, b: u32, [bent, long]: [f64; 2]) {
-        match self.between.entry((a.min(b), a.max(b))) {
-            Entry::Occupied(mut sum) => {
-                let sum = sum.get_mut();
-                *sum = [sum[0] + bent, sum[1] + long];
-            }
-            Entry::Vacant(sum) => {
-                sum.insert([bent, long]);
-                self.around[a as usize].push(b);
-                self.around[b as usize].push(a);
-            }
-        }
-    }
-
-    /// Mean angle along the border of two parts, as the bits of a positive float, which order like the float itself.
-    /// None unless it is below the limit.
-    fn angle(&self, a: u32, b: u32) -> Option<u64> {
-        let [bent, long] = self.between.get(&(a.min(b), a.max(b)))?;
-        let angle = bent / long;
-        (angle < self.fold).then(|| angle.to_bits())
-    }
-
-    /// Adds a part's borders with higher-numbered neighbours to the queue.
-    fn enqueue_borders(&mut self, a: u32) {
-        for b in self.around[a as usize].iter().filter(|b| **b > a) {
-            if let Some(angle) = self.angle(a, *b) {
-                self.queue.push(Reverse((angle, a, *b)));
-            }
-        }
-    }
-
-    /// Takes the pair of parts from the queue that folds least, among those that fold by less than the limit.
-    fn next(&mut self) -> Option<(u32, u32)> {
-        while let Some(Reverse((angle, a, b))) = self.queue.pop() {
-            if self.angle(a, b) == Some(angle) {
-                return Some((a, b));
-            }
-        }
-        None
-    }
-
-    /// Merges two neighbouring parts of the mesh: the one with fewer neighbours into the other.
-    fn join(&mut self, a: u32, b: u32) {
-        let size = |region: u32| self.around[region as usize].len();
-        let (to, from) = if size(a) < size(b) { (b, a) } else { (a, b) };
-        for other in std::mem::take(&mut self.around[from as usize]) {
-            let Some(sum) = self.between.remove(&(from.min(other), from.max(other))) else {
-                continue;
-            };
-            if other == to {
-                continue;
-            }
-            self.add(to, other, sum);
-            if let Some(angle) = self.angle(to, other) {
-                self.queue
-                    .push(Reverse((angle, to.min(other), to.max(other))));
-            }
+            *label = graph.merged(*label);
         }
     }
 }

@@ -12,6 +12,7 @@ mod parts;
 pub(crate) mod polyhedron;
 pub(crate) mod quarter;
 pub(crate) mod region;
+pub(crate) mod region_graph;
 pub(crate) mod sampling;
 mod splats;
 pub(crate) mod triangulation;

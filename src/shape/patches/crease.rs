@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::bend_angles::BendAngles;
+use super::chains::{Chain, chains};
 use super::patch::NO_PATCH;
 use crate::heights::heightfield::Heightfield;
 use crate::math::index::NO_INDEX;
@@ -43,8 +44,8 @@ pub(crate) fn crease_lines(
     labels: &[u32],
 ) -> Vec<([u32; 2], Vec<CreaseNode>)> {
     let label = |vertex: u32| labels[mesh.vertices()[vertex as usize] as usize];
-    // For each pair of patches the neighbours of each node.
-    let mut lines: BTreeMap<[u32; 2], BTreeMap<CreaseNode, Vec<CreaseNode>>> = BTreeMap::new();
+    // For each pair of patches the pieces of the lines between them, from node to node.
+    let mut pieces: BTreeMap<[u32; 2], Vec<[CreaseNode; 2]>> = BTreeMap::new();
     for (number, [a, b, c]) in mesh.triangles().iter().enumerate() {
         let crossed: Vec<(u32, u32)> = [(*a, *b), (*b, *c), (*c, *a)]
             .into_iter()
@@ -55,29 +56,26 @@ pub(crate) fn crease_lines(
             let (p, q) = (label(p), label(q));
             [p.min(q), p.max(q)]
         };
-        let mut join = |patches: [u32; 2], from: CreaseNode, to: CreaseNode| {
-            let line = lines.entry(patches).or_default();
-            line.entry(from).or_default().push(to);
-            line.entry(to).or_default().push(from);
-        };
         match crossed[..] {
-            [one, other] => join(pair(one), one, other),
+            [one, other] => pieces.entry(pair(one)).or_default().push([one, other]),
             [_, _, _] => {
                 for edge in crossed {
-                    join(pair(edge), edge, (number as u32, NO_INDEX));
+                    let piece = [edge, (number as u32, NO_INDEX)];
+                    pieces.entry(pair(edge)).or_default().push(piece);
                 }
             }
             _ => {}
         }
     }
     let mut out = Vec::new();
-    for (patches, mut line) in lines {
-        if patches[1] == NO_PATCH {
-            continue;
-        }
-        while let Some(nodes) = take_polyline(&mut line) {
-            out.push((patches, nodes));
-        }
+    for (patches, own) in pieces.iter().filter(|(patches, _)| patches[1] != NO_PATCH) {
+        let mut nodes = own.as_flattened().to_vec();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let number = |node: &CreaseNode| nodes.partition_point(|other| other < node) as u32;
+        let edges: Vec<[u32; 2]> = own.iter().map(|ends| ends.each_ref().map(number)).collect();
+        let line = |chain: &Chain| chain.vertices.iter().map(|v| nodes[*v as usize]).collect();
+        out.extend((chains(&edges, |_| false).iter()).map(|chain| (*patches, line(chain))));
     }
     out
 }
@@ -113,29 +111,6 @@ pub(super) fn creases(
         }
     };
     crease_lines(mesh, labels).into_iter().map(crease).collect()
-}
-
-/// Removes one polyline, from one end to the other or closed, from a graph of nodes.
-fn take_polyline(line: &mut BTreeMap<CreaseNode, Vec<CreaseNode>>) -> Option<Vec<CreaseNode>> {
-    let end = line.iter().find(|(_, joined)| joined.len() == 1);
-    let mut here = *end.or_else(|| line.iter().next())?.0;
-    let mut nodes = vec![here];
-    while let Some(next) = line.get_mut(&here).and_then(Vec::pop) {
-        if line.get(&here).is_some_and(Vec::is_empty) {
-            line.remove(&here);
-        }
-        if let Some(back) = line.get_mut(&next) {
-            if let Some(i) = back.iter().position(|node| *node == here) {
-                back.swap_remove(i);
-            }
-            if back.is_empty() {
-                line.remove(&next);
-            }
-        }
-        nodes.push(next);
-        here = next;
-    }
-    Some(nodes)
 }
 
 /// Computes the position of a crease's node: the midpoint of an edge, or the centre of a triangle.

@@ -3,10 +3,10 @@
 //! The factorisation is multifrontal (Duff and Reid 1983): the columns that are eliminated together are a dense front, to
 //! which the fronts below it have been added.
 //!
-//! Factor and solutions are in single precision, which doubles the columns' values in a register and halves the memory
-//! that a solve reads: the error of one global step is in the next one's right-hand side.
+//! Factor and solutions are in single precision, which halves the memory that a solve reads: the error of one global step is in the
+//! next one's right-hand side.
 
-use super::dense_front::{BLOCK_SIDE, Front, Planes, Rows, blocks, eliminate_columns};
+use super::dense_front::{Front, eliminate_columns};
 use super::flat_triangle::Point;
 use super::nested_dissection::Order;
 use super::sparse_rows::SparseRows;
@@ -19,14 +19,12 @@ use crate::math::union_find::UnionFind;
 const FIXED_VERTEX_FACTOR: f64 = 2.0;
 
 /// Cholesky factor of a symmetric positive semidefinite matrix.
-pub(super) struct Cholesky {
+pub(crate) struct Cholesky {
     /// Vertex at each place of the order of elimination.
     order: Vec<u32>,
     fronts: Vec<Front>,
-    /// Right-hand side and solution in the order of elimination.
-    values: Planes<Vec<f32>>,
-    /// Values at the rows of one front.
-    local: Planes<Vec<Rows>>,
+    /// Right-hand side and solution in the order of elimination, for both coordinates.
+    values: [Vec<f32>; 2],
 }
 
 impl Cholesky {
@@ -38,13 +36,10 @@ impl Cholesky {
         let count = positions.len();
         let Order { vertices, starts } = Order::new(matrix, positions)?;
         let fronts = factorise(matrix, &vertices, &starts)?;
-        let most = fronts.iter().map(Front::row_blocks).max().unwrap_or(0);
         let zeros = || try_filled("unrolling", count, 0.0f32);
-        let local = || try_filled("unrolling", most, [0.0f32; BLOCK_SIDE]);
         Ok(Cholesky {
             fronts,
             values: [zeros()?, zeros()?],
-            local: [local()?, local()?],
             order: vertices,
         })
     }
@@ -56,11 +51,16 @@ impl Cholesky {
             let value = right[*vertex as usize];
             (*x, *y) = (lanes::single(value.re), lanes::single(value.im));
         }
+        let mut local = Vec::new();
         for front in &self.fronts {
-            front.eliminate(&mut self.values, &mut self.local);
+            for values in &mut self.values {
+                front.eliminate(values, &mut local);
+            }
         }
         for front in self.fronts.iter().rev() {
-            front.substitute(&mut self.values, &mut self.local);
+            for values in &mut self.values {
+                front.substitute(values, &mut local);
+            }
         }
         let [x, y] = &self.values;
         for (vertex, (x, y)) in self.order.iter().zip(x.iter().zip(y)) {
@@ -103,7 +103,7 @@ fn factorise(matrix: &SparseRows, order: &[u32], starts: &[usize]) -> Result<Vec
     let mut fronts = Vec::with_capacity(starts.len());
     let is_last = last_of_components(matrix, order)?;
     // The current front's matrix, and the place in it of each row.
-    let mut space: Vec<Rows> = Vec::new();
+    let mut space: Vec<f32> = Vec::new();
     let mut locals = try_filled("unrolling", count, 0u32)?;
     for (number, (start, end)) in starts.iter().zip(&ends).enumerate() {
         let (start, end) = (*start, *end);
@@ -118,19 +118,17 @@ fn factorise(matrix: &SparseRows, order: &[u32], starts: &[usize]) -> Result<Vec
         above.retain(|place| *place as usize >= end);
         above.sort_unstable();
         above.dedup();
-        let (own_blocks, row_blocks) = (blocks(own), blocks(own) + blocks(above.len()));
-        let first = BLOCK_SIDE * own_blocks;
+        let size = own + above.len();
         for (local, row) in (0..own).zip(start..) {
             locals[row] = local as u32;
         }
-        for (local, row) in (first as u32..).zip(&above) {
+        for (local, row) in (own as u32..).zip(&above) {
             locals[*row as usize] = local;
         }
-        let size = BLOCK_SIDE * row_blocks;
-        if space.len() < size * row_blocks {
-            space = try_filled("unrolling", size * row_blocks, [0.0; BLOCK_SIDE])?;
+        if space.len() < size * size {
+            space = try_filled("unrolling", size * size, 0.0)?;
         }
-        let values = space[..size * row_blocks].as_flattened_mut();
+        let values = &mut space[..size * size];
         values.fill(0.0);
         for (column, vertex) in order[start..end].iter().enumerate() {
             for (other, weight) in matrix.row(*vertex as usize) {
@@ -153,17 +151,16 @@ fn factorise(matrix: &SparseRows, order: &[u32], starts: &[usize]) -> Result<Vec
                 }
             }
         }
-        eliminate_columns(&mut space[..size * row_blocks], row_blocks, own_blocks);
+        eliminate_columns(values, size, own);
         if let Some(next) = above.first() {
-            let values = space.as_flattened();
             let mut update = Vec::with_capacity(above.len() * (above.len() + 1) / 2);
-            for k in first..first + above.len() {
-                update.extend_from_slice(&values[k * size + k..k * size + first + above.len()]);
+            for k in own..size {
+                update.extend_from_slice(&values[k * size + k..(k + 1) * size]);
             }
             below[front_of[*next as usize] as usize].push((above.clone(), update));
         }
-        let mut columns = try_filled("unrolling", first * row_blocks, [0.0; BLOCK_SIDE])?;
-        columns.copy_from_slice(&space[..first * row_blocks]);
+        let mut columns = try_filled("unrolling", own * size, 0.0)?;
+        columns.copy_from_slice(&values[..own * size]);
         fronts.push(Front {
             start,
             own,

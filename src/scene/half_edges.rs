@@ -57,6 +57,38 @@ pub(crate) fn twin_half_edges(triangles: &[[u32; 3]]) -> Vec<u32> {
     twins
 }
 
+/// Next half-edge along the outline of a mesh that is cut open along some of its edges, after one on the outline; `is_cut` tells on
+/// which half-edges there is an outline, all of the border among them.
+pub(crate) fn next_on_outline(twins: &[u32], half_edge: u32, is_cut: impl Fn(u32) -> bool) -> u32 {
+    let mut next = next_half_edge(half_edge);
+    while !is_cut(next) {
+        next = next_half_edge(twins[next as usize]);
+    }
+    next
+}
+
+/// The closed lines of half-edges around a mesh that is cut open along some of its edges, of which each has one of `half_edges`, or
+/// several.
+pub(crate) fn outlines(
+    twins: &[u32],
+    half_edges: impl IntoIterator<Item = u32>,
+    is_cut: impl Fn(u32) -> bool,
+) -> Vec<Vec<u32>> {
+    let mut is_done = vec![false; twins.len()];
+    let mut lines = Vec::new();
+    for first in half_edges.into_iter().filter(|side| is_cut(*side)) {
+        let (mut line, mut side) = (Vec::new(), first);
+        while !std::mem::replace(&mut is_done[side as usize], true) {
+            line.push(side);
+            side = next_on_outline(twins, side, &is_cut);
+        }
+        if !line.is_empty() {
+            lines.push(line);
+        }
+    }
+    lines
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -12,17 +12,13 @@ use crate::math::index::NO_INDEX;
 use crate::math::planar::{Point2, polygon_area};
 use crate::math::polygon::triangulate;
 use crate::math::union_find::UnionFind;
-use crate::scene::half_edges::{half_edge_ends, next_half_edge, twin_half_edges};
+use crate::scene::half_edges::{half_edge_ends, outlines, twin_half_edges};
 use crate::scene::mesh::Mesh;
 use crate::scene::polyhedron::{KnownFaces, Place, Polyhedron};
 
 /// Length, in standard deviations of the noise, up to which the ends of an edge are one corner. `benches/patterns.md` has what
 /// others give.
 const MIN_EDGE_SIGMAS: f64 = 10.0;
-
-/// Cosine of the angle opposite to the border, 150°, from which a triangle is a bridge between vertices of the border.
-/// `benches/patterns.md` has what others give.
-const MAX_BRIDGE_COSINE: f64 = -0.866;
 
 /// Maximum difference of the area of each face from that of the mesh on its plane, as a share, and of all from all.
 /// `benches/patterns.md` has what others give.
@@ -158,30 +154,11 @@ impl<'a> Divided<'a> {
         half_edge_ends(&self.triangles, side)[1]
     }
 
-    /// The closed lines around the regions, each as half-edges.
-    fn loops(&self) -> Vec<Vec<u32>> {
-        let mut is_done = vec![false; self.twins.len()];
-        let mut loops = Vec::new();
-        for first in 0..self.twins.len() as u32 {
-            let (mut line, mut side) = (Vec::new(), first);
-            while self.beyond(side) != self.label(side) && !is_done[side as usize] {
-                is_done[side as usize] = true;
-                line.push(side);
-                side = next_half_edge(side);
-                while self.beyond(side) == self.label(side) {
-                    side = next_half_edge(self.twins[side as usize]);
-                }
-            }
-            if !line.is_empty() {
-                loops.push(line);
-            }
-        }
-        loops
-    }
-
     /// Triangles of the faces, whose corners are moved to where planes meet; `None` if the faces are no polygons.
     fn faces(&mut self) -> Result<Option<KnownFaces>> {
-        let mut loops = self.loops();
+        // The closed lines around the regions.
+        let is_cut = |side: u32| self.beyond(side) != self.label(side);
+        let mut loops = outlines(&self.twins, 0..self.twins.len() as u32, is_cut);
         // Corners are where what is beyond changes; a line begins with one.
         for line in &mut loops {
             let n = line.len();
@@ -291,9 +268,8 @@ impl<'a> Divided<'a> {
             .map(|p| (p[1] - p[0]).norm())
             .fold(0.0, f64::max);
         let mut meet = |k: usize, one: &Straight, other: &Straight| {
-            let found = one
-                .meet(other)
-                .filter(|p| (p - points[k]).norm() <= longest);
+            // Lines that run nearly the same way meet far away.
+            let found = Some(one.meet(other)).filter(|p| (p - points[k]).norm() <= longest);
             meetings.entry(vertices[k]).or_default().extend(found);
         };
         for pair in parts.windows(2) {
@@ -366,8 +342,8 @@ impl<'a> Divided<'a> {
     }
 }
 
-/// Triangles without those of several planes along the border whose corners lie nearly on a line, or whose planes do not meet there:
-/// they only bridge vertices that are the border, as the hull of scattered points does. `None` if they are more than that.
+/// Triangles without those of several planes along the border whose planes do not meet there: they only bridge vertices that are the
+/// border, as the hull of scattered points does. `None` if they are more than that.
 fn without_bridges(solid: &Polyhedron, found: &NoisyPlanes) -> Option<Vec<[u32; 3]>> {
     let mut is_left = vec![true; solid.triangles.len()];
     let mut open: Vec<usize> = (0..is_left.len()).collect();
@@ -390,9 +366,7 @@ fn without_bridges(solid: &Polyhedron, found: &NoisyPlanes) -> Option<Vec<[u32; 
         let is_bridge = |k: usize| {
             let twin = solid.twins[3 * t + k];
             let is_border = twin == NO_INDEX || !is_left[twin as usize / 3];
-            let [a, b, c] = [0, 1, 2].map(|i| solid.corners(t)[(k + i) % 3]);
-            let is_line = (a - c).normalize().dot(&(b - c).normalize()) < MAX_BRIDGE_COSINE;
-            is_border && (is_line || !meets())
+            is_border && !meets()
         };
         if is_left[t] && (own[0] != own[1] || own[1] != own[2]) && (0..3).any(is_bridge) {
             is_left[t] = false;

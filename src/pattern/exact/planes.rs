@@ -41,9 +41,6 @@ const MAX_MERGED_DEVIATION_RATIO: f64 = 1.2;
 /// `benches/patterns.md` has what others give.
 const MAX_BENT_SHARE: f64 = 0.2;
 
-/// Maximum correlation of the distances of neighbouring vertices from their plane. `benches/patterns.md` has what others give.
-const MAX_NEIGHBOUR_CORRELATION: f64 = 0.5;
-
 /// Sum of squared distances, in variances, that a quadratic explains by chance in noise: four standard deviations above the mean
 /// of a chi-squared of three degrees. `benches/patterns.md` has what others give.
 const MAX_CHANCE_VARIANCES: f64 = 13.0;
@@ -358,7 +355,7 @@ impl Search<'_> {
     }
 
     /// The planes with the noise that they leave, if the mesh is a polyhedron with noise: nearly all vertices lie in the planes, and
-    /// their distances from them are no shape, neither alike at neighbours nor quadratic in a face.
+    /// their distances from them are not quadratic in a face.
     fn checked(&self, found: NoisyPlanes) -> Option<NoisyPlanes> {
         let regions = self.regions(&found.labels);
         let limit = MAX_DEVIATION_SIGMAS * found.noise;
@@ -390,16 +387,6 @@ impl Search<'_> {
                 bent += region.len();
             }
         }
-        let (mut products, mut squares) = (0.0, 0.0);
-        for v in (0..distances.len() as u32).filter(is_inner) {
-            let same = self.around[v as usize].iter().filter(|other| {
-                found.labels[**other as usize] == found.labels[v as usize] && is_inner(other)
-            });
-            for other in same {
-                products += distances[v as usize] * distances[*other as usize];
-                squares += distances[v as usize].powi(2);
-            }
-        }
         let inner = (0..distances.len() as u32).filter(is_inner).count();
         let noise = (all / inner as f64).sqrt();
         let is_large = |region: &Vec<u32>| self.extents(region)[1] >= MIN_FACE_SIGMAS * noise;
@@ -408,7 +395,6 @@ impl Search<'_> {
         let count = used.clone().count() as f64;
         let is_polyhedron = inner as f64 >= (1.0 - MAX_OUTLIER_SHARE) * count
             && bent as f64 <= MAX_OUTLIER_SHARE * count
-            && products <= MAX_NEIGHBOUR_CORRELATION * squares
             && regions.iter().all(is_large)
             && used.clone().all(|(label, _)| *label != NO_INDEX);
         is_polyhedron.then_some(NoisyPlanes { noise, ..found })

@@ -3,10 +3,6 @@
 use crate::math::symmetric_eigen::symmetric_eigen3;
 use crate::scene::polyhedron::Place;
 
-/// Minimum sine of the angle between two lines whose corner is where they meet, and not where it was measured.
-/// `benches/patterns.md` has what others give.
-const MIN_CORNER_SINE: f64 = 0.2;
-
 /// A straight part of a line with noise: the numbers of its first and last points, and the line nearest to all of them.
 pub(super) struct Straight {
     pub ends: [usize; 2],
@@ -38,12 +34,12 @@ impl Straight {
         points[first] != points[last] && points[first..=last].iter().all(|p| away(p) <= tolerance)
     }
 
-    /// The point of the line that is nearest to another one, unless they run nearly the same way.
-    pub(super) fn meet(&self, other: &Straight) -> Option<Place> {
+    /// The point of the line that is nearest to another one; it is not finite if they are parallel.
+    pub(super) fn meet(&self, other: &Straight) -> Place {
         let (cosine, off) = (self.along.dot(&other.along), other.middle - self.middle);
         let squared_sine = 1.0 - cosine * cosine;
         let far = (self.along.dot(&off) - cosine * other.along.dot(&off)) / squared_sine;
-        (squared_sine >= MIN_CORNER_SINE.powi(2)).then(|| self.middle + self.along * far)
+        self.middle + self.along * far
     }
 }
 

@@ -4,7 +4,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::math::index::NO_INDEX;
 use crate::math::planar::Point2;
-use crate::scene::half_edges::{half_edge_ends, next_half_edge, twin_half_edges};
+use crate::scene::half_edges::{half_edge_ends, outlines, twin_half_edges};
 use crate::scene::triangulation::Triangulation;
 
 /// Number of edges on either side of a vertex over which the direction of the border is measured.
@@ -34,27 +34,17 @@ impl BorderLines {
     pub(super) fn new(lattice: &Triangulation) -> Self {
         let triangles = lattice.triangles();
         let twins = twin_half_edges(triangles);
-        let mut is_done = vec![false; twins.len()];
+        let is_border = |side: u32| twins[side as usize] == NO_INDEX;
+        let lines = outlines(&twins, 0..twins.len() as u32, is_border).into_iter();
+        let start = |side: u32| half_edge_ends(triangles, side)[0];
         let mut all = BorderLines {
-            lines: Vec::new(),
+            lines: lines
+                .map(|line| line.into_iter().map(start).collect())
+                .collect(),
             shares: FxHashMap::default(),
             fixed: FxHashMap::default(),
             beside_corners: FxHashSet::default(),
         };
-        for first in (0..twins.len() as u32).filter(|side| twins[*side as usize] == NO_INDEX) {
-            let mut line = Vec::new();
-            let mut side = first;
-            while !std::mem::replace(&mut is_done[side as usize], true) {
-                line.push(half_edge_ends(triangles, side)[0]);
-                side = next_half_edge(side);
-                while twins[side as usize] != NO_INDEX {
-                    side = next_half_edge(twins[side as usize]);
-                }
-            }
-            if !line.is_empty() {
-                all.lines.push(line);
-            }
-        }
         for number in 0..all.lines.len() {
             all.straighten(lattice, number);
         }

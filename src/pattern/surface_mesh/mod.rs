@@ -140,7 +140,7 @@ mod tests {
     use super::*;
     use crate::lattice::hexagonal::Lattice;
     use crate::math::index::NO_INDEX;
-    use crate::scene::half_edges::twin_half_edges;
+    use crate::scene::half_edges::{outlines, twin_half_edges};
     use crate::shape::patches::PatchOptions;
 
     fn mesh(surface: &Heightfield) -> SurfaceMesh {
@@ -164,23 +164,13 @@ mod tests {
     /// Number of closed lines around the mesh, and of its edges between two patches.
     fn lines(mesh: &SurfaceMesh) -> (usize, usize) {
         let twins = twin_half_edges(&mesh.triangles);
-        let border: FxHashMap<u32, u32> = crate::unroll::border(&mesh.triangles)
-            .map(|[from, to]| (from, to))
-            .collect();
-        let mut left = border.clone();
-        let mut count = 0;
-        while let Some(start) = left.keys().next().copied() {
-            let mut here = start;
-            while let Some(next) = left.remove(&here) {
-                here = next;
-            }
-            count += 1;
-        }
+        let is_border = |side: u32| twins[side as usize] == NO_INDEX;
+        let border = outlines(&twins, 0..twins.len() as u32, is_border);
         let patch = |side: usize| mesh.patches[side / 3];
         let between = (twins.iter().enumerate())
             .filter(|(_, twin)| **twin != NO_INDEX)
             .filter(|(side, twin)| patch(*side) < patch(**twin as usize));
-        (count, between.count())
+        (border.len(), between.count())
     }
 
     #[test]

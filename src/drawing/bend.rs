@@ -129,10 +129,14 @@ impl Bend {
             let [x, y] = nearest_on_segment([p.re, p.im], line.map(|p| [p.re, p.im]));
             Point::new(x, y)
         };
-        if fold.ends.iter().flatten().next().is_some() {
-            return Err(
-                "ends inside of the surface, and a bend allowance needs folds from edge to edge",
-            );
+        // Exact faces may leave room where their folds meet.
+        let tips = |fold: &Fold| [fold.points[0], fold.points[fold.points.len() - 1]];
+        let meets = |other: &Fold| {
+            other.seam.crease != fold.seam.crease
+                && tips(other).iter().any(|tip| tips(fold).contains(tip))
+        };
+        if !sheet.exact && sheet.folds.iter().any(meets) {
+            return Err("meets another one, and a bend allowance needs folds from edge to edge");
         }
         // The nearest piece of an outline to each end.
         let nearest = |end: Point| {

@@ -1,8 +1,8 @@
 //! Arcs of circles in lines of straight pieces, as CAD divides them.
 
 use super::curve::Curve;
-use super::simplify::simplify_polyline;
 use crate::math::planar::{Point2, bounds, circle_through, distance, distance_to_segment};
+use crate::math::simplify::simplify_polyline;
 use crate::scene::polyhedron::MAX_BEND_STEP;
 
 /// Maximum distance of an arc's points from its circle, as a share of the radius.

@@ -18,7 +18,6 @@
 //! # }
 //! ```
 
-mod angles;
 mod bend;
 mod bending;
 mod circle;
@@ -37,12 +36,10 @@ mod options;
 mod pack;
 mod pages;
 mod sheet;
-mod simplify;
 mod smooth;
 mod tabs;
 mod totals;
 
-pub use angles::WorstAngle;
 pub use bending::Bending;
 pub use curve::{Curve, Piece};
 pub(crate) use draft::letters;
@@ -54,4 +51,4 @@ pub use options::{DrawingOptions, MAX_SIZE};
 pub(crate) use pack::beside;
 pub use pages::{MAX_PAGES, Page, Pages, Stock};
 pub use sheet::{DrawnSheet, PrintedTriangle};
-pub use totals::{Totals, WorstJoint};
+pub use totals::{Totals, WorstAngle, WorstJoint};

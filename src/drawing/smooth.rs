@@ -4,8 +4,8 @@
 //! where that is off by more than the tolerance (Schneider, *An Algorithm for Automatically Fitting Digitized Curves*, 1990).
 
 use super::curve::{Curve, MIN_CORNER_TURN};
-use super::simplify::simplify_polyline;
 use crate::math::planar::{Point2, distance_to_segment};
+use crate::math::simplify::simplify_polyline;
 
 /// Share of the tolerance within which a line is simplified before curves are fitted to it.
 const MAX_SIMPLIFICATION_SHARE: f64 = 0.25;

@@ -3,10 +3,9 @@
 use crate::math::planar::{distance, polyline_length};
 use std::collections::BTreeMap;
 
-use super::angles::{WorstAngle, angles};
 use super::lines::Lines;
 use super::sheet::DrawnSheet;
-use crate::pattern::{Direction, Missing, Sheet};
+use crate::pattern::{Direction, Junction, Missing, Sheet};
 
 /// Minimum length of a joint whose sides are compared, as a share of the side of a square with the area of all
 /// sheets.
@@ -95,6 +94,24 @@ pub struct WorstJoint {
     pub lengths: [f64; 2],
 }
 
+/// Point of the surface where the sum of the angles of the flat pieces around it differs most from the angle of the
+/// surface around it; angles in degrees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct WorstAngle {
+    /// Position of the point on the surface in space, in the surface's units.
+    pub place: [f64; 3],
+    /// Number, from 0, of the crease that is cut at the point, the lowest of several, if any; its letter is on the drawing
+    /// ([`Label`](super::Label)).
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub crease: Option<usize>,
+    /// Sum of the angles of the flat pieces that meet at the point, in degrees.
+    pub flat: f64,
+    /// Angle of the surface around the point, in degrees: 360° where the surface could be laid flat in one piece.
+    pub surface: f64,
+}
+
 /// A crease that is cut, with the length of its side on either patch.
 struct Joint {
     crease: usize,
@@ -134,7 +151,8 @@ pub(super) fn summary(
     scale: f64,
 ) -> Totals {
     let joints = joints(lines);
-    let angles = angles(sheets, lines, scale);
+    let junctions = || sheets.iter().flat_map(|sheet| &sheet.junctions);
+    let difference = |junction: &Junction| (junction.flat - junction.surface).abs();
     let folds = |direction: Direction| -> f64 {
         let lines = drawn.iter().flat_map(|sheet| &sheet.folds);
         let own = lines.filter(|line| line.direction == direction);
@@ -172,8 +190,15 @@ pub(super) fn summary(
             patches: joint.patches,
             lengths: joint.sides,
         }),
-        points: angles.len(),
-        worst_angle: (angles.into_iter()).max_by(|a, b| a.difference().total_cmp(&b.difference())),
+        points: junctions().count(),
+        worst_angle: junctions()
+            .max_by(|a, b| difference(a).total_cmp(&difference(b)))
+            .map(|junction| WorstAngle {
+                place: junction.place,
+                crease: junction.crease,
+                flat: junction.flat.to_degrees(),
+                surface: junction.surface.to_degrees(),
+            }),
         folds: drawn.iter().map(|sheet| sheet.folds.len()).sum(),
         tabs: drawn.iter().map(|sheet| sheet.tabs.len()).sum(),
         untabbed: 0,

@@ -11,19 +11,14 @@ const MAX_CRUMB_SHARE: f64 = 0.001;
 /// Takes out the sheets that cannot be drawn, and the crumbs, the smallest first, up to the share of the area that may be
 /// left out, of which `missing` has what is left out already, and gets what is taken out. Along it the other sheets have a
 /// border.
-pub(super) fn remove_crumbs(
-    sheets: &mut Vec<Sheet>,
-    patches: &[Patch],
-    missing: &mut Missing,
-    is_undrawable: impl Fn(&Sheet) -> bool,
-) {
+pub(super) fn remove_crumbs(sheets: &mut Vec<Sheet>, patches: &[Patch], missing: &mut Missing) {
     let whole = missing.area + sheets.iter().map(|sheet| sheet.area).sum::<f64>();
     sheets.sort_by(|a, b| a.area.total_cmp(&b.area));
     let mut left_out = missing.area;
     let is_crumb = |sheet: &mut Sheet| {
         let is_small = sheet.area < MAX_CRUMB_SHARE * whole
             && left_out + sheet.area <= MAX_OMITTED_SHARE * whole;
-        let is_out = is_small || !is_finite(sheet) || is_undrawable(sheet);
+        let is_out = is_small || !is_finite(sheet);
         left_out += f64::from(is_out) * sheet.area;
         is_out
     };

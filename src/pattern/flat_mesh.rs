@@ -5,10 +5,11 @@ use rustc_hash::FxHashMap;
 
 use super::faces::Faces;
 use super::label_spot::label_spot;
-use super::sheets::{Fold, Junction, Run, Seam, Sheet};
+use super::sheets::{Fold, Run, Seam, Sheet};
 use crate::math::index::NO_INDEX;
-use crate::math::planar::{Point2, orientation, polygon_area};
-use crate::scene::half_edges::{half_edge_ends, next_half_edge};
+use crate::math::planar::{Point2, polygon_area};
+use crate::math::simplify::simplify_polyline;
+use crate::scene::half_edges::{half_edge_ends, next_on_outline, outlines};
 use crate::scene::mesh::TexturedTriangle;
 use crate::shape::patches::chains::chains;
 
@@ -38,13 +39,8 @@ pub(super) struct FlatMesh<'a> {
 
 impl FlatMesh<'_> {
     /// Draws a sheet of given triangles; its area, strain and gaps are 0. Closed lines around less than `least` are left out,
-    /// unless they are the largest; `junction` gives the point where seams end at a vertex.
-    pub(super) fn sheet(
-        &self,
-        members: &[u32],
-        least: impl Fn(&[u32]) -> f64,
-        junction: impl Fn(u32) -> Option<Junction>,
-    ) -> Sheet {
+    /// unless they are the largest.
+    pub(super) fn sheet(&self, members: &[u32], least: impl Fn(&[u32]) -> f64) -> Sheet {
         let sides: Vec<u32> = members.iter().flat_map(|t| 3 * t..3 * t + 3).collect();
         let faces = self.faces(members);
         let mut patches: Vec<u32> = (members.iter())
@@ -62,8 +58,8 @@ impl FlatMesh<'_> {
             label_spot(*patch, &own, &flat)
         };
         Sheet {
-            outlines: self.outlines(&sides, least, &junction),
-            folds: self.folds(&sides, &junction),
+            outlines: self.outlines(&sides, least),
+            folds: self.folds(&sides),
             spots: patches.iter().map(spot).collect(),
             faces,
             patches,
@@ -71,6 +67,7 @@ impl FlatMesh<'_> {
             area: 0.0,
             strain: 0.0,
             seam_gap: 0.0,
+            junctions: Vec::new(),
             refolding: None,
             exact: false,
         }
@@ -102,33 +99,13 @@ impl FlatMesh<'_> {
 
     /// The next half-edge along the outline of a sheet, after one of its border.
     pub(super) fn next_on_outline(&self, side: u32) -> u32 {
-        let mut next = next_half_edge(side);
-        while self.closed[next as usize] {
-            next = next_half_edge(self.twins[next as usize]);
-        }
-        next
+        next_on_outline(self.twins, side, |side| !self.closed[side as usize])
     }
 
     /// The closed lines around a sheet, the longest first, each divided where the seam or the patch changes.
-    fn outlines(
-        &self,
-        sides: &[u32],
-        least: impl Fn(&[u32]) -> f64,
-        junction: impl Fn(u32) -> Option<Junction>,
-    ) -> Vec<Vec<Run>> {
-        let mut is_done = vec![false; self.closed.len()];
-        let mut lines: Vec<Vec<u32>> = Vec::new();
-        for first in sides.iter().filter(|side| !self.closed[**side as usize]) {
-            let mut line = Vec::new();
-            let mut side = *first;
-            while !std::mem::replace(&mut is_done[side as usize], true) {
-                line.push(side);
-                side = self.next_on_outline(side);
-            }
-            if !line.is_empty() {
-                lines.push(line);
-            }
-        }
+    fn outlines(&self, sides: &[u32], least: impl Fn(&[u32]) -> f64) -> Vec<Vec<Run>> {
+        let is_cut = |side: u32| !self.closed[side as usize];
+        let mut lines = outlines(self.twins, sides.iter().copied(), is_cut);
         let start = |side: &u32| self.ends(*side)[0];
         drop_empty_lines(
             &mut lines,
@@ -140,13 +117,13 @@ impl FlatMesh<'_> {
             (b - a).norm()
         };
         let mut outlines: Vec<(f64, Vec<Run>)> = (lines.iter())
-            .map(|line| (line.iter().map(long).sum(), self.runs(line, &junction)))
+            .map(|line| (line.iter().map(long).sum(), self.runs(line)))
             .collect();
         outlines.sort_by(|(a, _), (b, _)| b.total_cmp(a));
         outlines.into_iter().map(|(_, runs)| runs).collect()
     }
 
-    fn runs(&self, line: &[u32], junction: impl Fn(u32) -> Option<Junction>) -> Vec<Run> {
+    fn runs(&self, line: &[u32]) -> Vec<Run> {
         let n = line.len();
         // A border past a fold is one run, so that it is smoothed as one line; of exact faces each side is a run.
         let key = |i: usize| {
@@ -175,23 +152,19 @@ impl FlatMesh<'_> {
             let seam = (seam != NO_INDEX).then(|| self.seams[seam as usize]);
             let mut points: Vec<Point2> = sides.iter().map(|side| self.ends(*side)[0]).collect();
             points.push(self.ends(last)[1]);
-            let [from, to] = [(first, 0), (last, 1)]
-                .map(|(side, end)| half_edge_ends(self.triangles, side)[end]);
             if run.len() == n {
                 points[n] = points[0];
             }
             Run {
                 seam,
                 patch: seam.map(|_| self.patch(first)),
-                // A run that is a whole outline has no ends.
-                ends: [from, to].map(|v| junction(v).filter(|_| from != to)),
-                points: without_straight(&points, self.straightness),
+                points: self.straight(&points),
             }
         })
         .collect()
     }
 
-    fn folds(&self, sides: &[u32], junction: impl Fn(u32) -> Option<Junction>) -> Vec<Fold> {
+    fn folds(&self, sides: &[u32]) -> Vec<Fold> {
         let mut of: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
         for side in sides {
             let (seam, twin) = (self.seam_of[*side as usize], self.twins[*side as usize]);
@@ -216,8 +189,7 @@ impl FlatMesh<'_> {
                 folds.push(Fold {
                     seam: self.seams[seam as usize],
                     bend: None,
-                    ends: [line.vertices[0], line.vertices[line.vertices.len() - 1]].map(&junction),
-                    points: without_straight(&points, self.straightness),
+                    points: self.straight(&points),
                 });
             }
         }
@@ -226,6 +198,12 @@ impl FlatMesh<'_> {
             (a.seam.crease.cmp(&b.seam.crease)).then(x.total_cmp(&u))
         });
         folds
+    }
+
+    /// A line without the points at which it goes straight on.
+    fn straight(&self, points: &[Point2]) -> Vec<[f64; 2]> {
+        let line = simplify_polyline(points, self.straightness).into_iter();
+        line.map(|p| [p.re, p.im]).collect()
     }
 
     /// Triangles of a sheet; corners that lie on each other are one vertex.
@@ -275,23 +253,6 @@ fn drop_empty_lines<T>(
         let area = areas.next();
         area.is_some_and(|area| area >= least(line).min(largest))
     });
-}
-
-/// Leaves out the points of a line at which it goes straight on.
-fn without_straight(points: &[Point2], tolerance: f64) -> Vec<[f64; 2]> {
-    let mut line: Vec<Point2> = Vec::with_capacity(points.len());
-    for (i, p) in points.iter().enumerate() {
-        if i > 0 && i + 1 < points.len() {
-            let (a, b) = (line[line.len() - 1], points[i + 1]);
-            let is_on = orientation(a, *p, b).abs() <= tolerance * (b - a).norm();
-            let goes_on = ((b - p) * (p - a).conj()).re > 0.0;
-            if (is_on && goes_on) || (p - a).norm() <= tolerance {
-                continue;
-            }
-        }
-        line.push(*p);
-    }
-    line.iter().map(|p| [p.re, p.im]).collect()
 }
 
 #[cfg(test)]

@@ -29,7 +29,6 @@ mod exact;
 mod faces;
 mod flat_mesh;
 mod label_spot;
-mod motion;
 mod options;
 mod sheets;
 mod smooth_creases;

@@ -69,6 +69,8 @@ pub struct Sheet {
     pub strain: f64,
     /// Largest seam gap of a fold: root mean square distance between its two sides before they were joined.
     pub seam_gap: f64,
+    /// Points inside of the surface where cuts or folds end, each on one of the sheets that meet there.
+    pub junctions: Vec<Junction>,
     /// Distance of the refolded sheet from the surface; `None` unless
     /// [`PatternOptions::refold`](super::PatternOptions::refold) is set.
     pub refolding: Option<Refolding>,
@@ -97,8 +99,6 @@ pub struct Run {
     pub seam: Option<Seam>,
     /// Number of the patch whose side of the crease the run follows; `None` along the border.
     pub patch: Option<u32>,
-    /// Points inside of the surface where cuts or folds meet and the run begins and ends; `None` at the border.
-    pub ends: [Option<Junction>; 2],
     /// Polyline of the run on the flat sheet: at least two points; the first one is repeated at the end where the run
     /// is a whole outline.
     pub points: Vec<[f64; 2]>,
@@ -112,8 +112,6 @@ pub struct Fold {
     pub seam: Seam,
     /// The bend that the fold is a part of, where the surface turns by several folds beside each other.
     pub bend: Option<Bend>,
-    /// Points inside of the surface where cuts or folds meet and the fold begins and ends; `None` at the border.
-    pub ends: [Option<Junction>; 2],
     /// Polyline of the fold on the flat sheet: at least two points; the first one is repeated at the end where the fold
     /// is closed.
     pub points: Vec<[f64; 2]>,
@@ -144,22 +142,21 @@ pub struct Bend {
     pub is_middle: bool,
 }
 
-/// A point inside of the surface where cuts or folds end.
+/// A point inside of the surface where cuts or folds end, with the angles around it, measured within four fifths of the shortest seam
+/// that ends there and within twenty edge lengths of the mesh that was cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Junction {
-    /// Number of the point, which is the same on all sheets.
-    pub number: usize,
     /// Position of the point on the surface, in the surface's units.
     pub place: [f64; 3],
+    /// The crease that is cut and ends at the point, the lowest of several, by its index in [`Pattern::creases`]; `None` if only folds end
+    /// there.
+    pub crease: Option<usize>,
     /// Sum of the angles of the surface around the point, in radians: 2π where the surface could be laid flat in
     /// one piece, less at the tip of a cone, more at a saddle.
-    pub angle: f64,
-    /// Outer radius of the ring in which the angle was measured, as distance along the surface in its units; the inner
-    /// radius is half of it.
-    pub reach: f64,
-    /// Number of cuts that end at the point, counted twice if both ends do.
-    pub cuts: usize,
+    pub surface: f64,
+    /// Sum of the angles of the flat pieces around the point, in radians.
+    pub flat: f64,
 }
 
 /// A crease or cut on the border of a sheet or within it: the patches on either side, the fold angle and the kind.

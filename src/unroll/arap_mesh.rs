@@ -84,7 +84,7 @@ impl ArapMesh {
         positions: &mut [Point],
         criteria: StoppingCriteria,
     ) -> Result<Progress> {
-        let mut progress = self.minimise_in_plane(positions, criteria)?;
+        let mut progress = self.minimise(positions, criteria)?;
         let triangles: Vec<[u32; 3]> = self.triangles.iter().map(|(_, corners)| *corners).collect();
         if unflip_triangles(&triangles, positions)? {
             let mut descent = try_filled("unrolling", positions.len(), Point::default())?;
@@ -93,16 +93,16 @@ impl ArapMesh {
         Ok(progress)
     }
 
-    /// Moves the mesh's vertices in the plane to positions of least energy.
+    /// Moves the mesh's vertices in the plane, or in space from positions near the solution, to positions of least energy.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub(crate) fn minimise_in_plane(
+    pub(crate) fn minimise<P: Position>(
         &mut self,
-        positions: &mut [Point],
+        positions: &mut [P],
         criteria: StoppingCriteria,
     ) -> Result<Progress> {
-        let mut descent = try_filled("unrolling", positions.len(), Point::default())?;
+        let mut descent = try_filled("unrolling", positions.len(), P::default())?;
         let mut corrections = descent.clone();
         let mut iteration = Iteration::new(positions)?;
         let (mut recent_change, mut first_change) = (0.0, f64::NAN);
@@ -129,51 +129,10 @@ impl ArapMesh {
             {
                 break;
             }
-            self.factor.solve(&descent, &mut corrections);
+            P::solve(&mut self.factor, &descent, &mut corrections);
             iteration.advance(positions, corrections.iter().copied());
         }
         Ok(iteration.finish(positions))
-    }
-
-    /// Moves the mesh's vertices in space, from positions near the solution, to positions of least energy. The
-    /// tolerance and the maximum number of iterations alone decide when it stops.
-    ///
-    /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub(crate) fn minimise_in_space(
-        &mut self,
-        positions: &mut [Vector3<f64>],
-        criteria: StoppingCriteria,
-    ) -> Result<()> {
-        let mut descent = try_filled("refolding", positions.len(), Vector3::zeros())?;
-        let mut corrections = descent.clone();
-        let mut right = try_filled("refolding", positions.len(), Point::default())?;
-        let mut solution = right.clone();
-        let mut iteration = Iteration::new(positions)?;
-        while iteration.steps < criteria.max_steps {
-            let energy = self.energy(positions, &mut descent) / self.area;
-            if iteration.converges(energy, criteria.tolerance) {
-                break;
-            }
-            // Two coordinates at once, then the third.
-            for (right, descent) in right.iter_mut().zip(&descent) {
-                *right = Point::new(descent.x, descent.y);
-            }
-            self.factor.solve(&right, &mut solution);
-            for (correction, solved) in corrections.iter_mut().zip(&solution) {
-                (correction.x, correction.y) = (solved.re, solved.im);
-            }
-            for (right, descent) in right.iter_mut().zip(&descent) {
-                *right = Point::new(descent.z, 0.0);
-            }
-            self.factor.solve(&right, &mut solution);
-            for (correction, solved) in corrections.iter_mut().zip(&solution) {
-                correction.z = solved.re;
-            }
-            iteration.advance(positions, corrections.iter().copied());
-        }
-        iteration.finish(positions);
-        Ok(())
     }
 
     /// Computes the root mean square of the triangles' strains at given vertex positions in space.

@@ -7,11 +7,11 @@
 //! next one's right-hand side.
 
 use super::dense_front::{Front, eliminate_columns};
-use super::flat_triangle::Point;
 use super::nested_dissection::Order;
 use super::sparse_rows::SparseRows;
 use crate::error::{Result, try_filled};
 use crate::math::lanes;
+use crate::math::planar::Point2;
 use crate::math::union_find::UnionFind;
 
 /// Factor of the diagonal of the vertex of each component that is eliminated last. The matrix is singular, as it lets all
@@ -32,7 +32,7 @@ impl Cholesky {
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub(super) fn new(matrix: &SparseRows, positions: &[Point]) -> Result<Cholesky> {
+    pub(super) fn new(matrix: &SparseRows, positions: &[Point2]) -> Result<Cholesky> {
         let count = positions.len();
         let Order { vertices, starts } = Order::new(matrix, positions)?;
         let fronts = factorise(matrix, &vertices, &starts)?;
@@ -45,7 +45,7 @@ impl Cholesky {
     }
 
     /// Solves for both coordinates of the right-hand side at once.
-    pub(super) fn solve(&mut self, right: &[Point], solution: &mut [Point]) {
+    pub(super) fn solve(&mut self, right: &[Point2], solution: &mut [Point2]) {
         let [x, y] = &mut self.values;
         for (vertex, (x, y)) in self.order.iter().zip(x.iter_mut().zip(y)) {
             let value = right[*vertex as usize];
@@ -64,7 +64,7 @@ impl Cholesky {
         }
         let [x, y] = &self.values;
         for (vertex, (x, y)) in self.order.iter().zip(x.iter().zip(y)) {
-            solution[*vertex as usize] = Point::new(lanes::double(*x), lanes::double(*y));
+            solution[*vertex as usize] = Point2::new(lanes::double(*x), lanes::double(*y));
         }
     }
 }
@@ -176,7 +176,7 @@ mod tests {
     use super::*;
 
     /// The Laplacian of a square grid, as entries, and the positions of its vertices.
-    fn grid(size: u32) -> (Vec<([u32; 2], f64)>, Vec<Point>) {
+    fn grid(size: u32) -> (Vec<([u32; 2], f64)>, Vec<Point2>) {
         let mut entries = Vec::new();
         let mut edge = |a: u32, b: u32| {
             entries.extend([([a, a], 1.0), ([b, b], 1.0), ([a, b], -1.0), ([b, a], -1.0)]);
@@ -190,7 +190,7 @@ mod tests {
                 edge(vertex, vertex + size);
             }
         }
-        let place = |i: u32| Point::new(f64::from(i % size), f64::from(i / size));
+        let place = |i: u32| Point2::new(f64::from(i % size), f64::from(i / size));
         (entries, (0..size * size).map(place).collect())
     }
 
@@ -209,28 +209,28 @@ mod tests {
         }
         places.extend_from_within(..);
         for place in &mut places[one..] {
-            *place += Point::new(0.3, 0.4);
+            *place += Point2::new(0.3, 0.4);
         }
-        places.push(Point::new(3.2, 1.1));
+        places.push(Point2::new(3.2, 1.1));
         let matrix = SparseRows::new(places.len(), &entries).unwrap();
         let mut factor = Cholesky::new(&matrix, &places).unwrap();
         for [p, q] in [[1, 0], [3, 2], [36, 36]] {
             let step = std::f64::consts::PI / f64::from(size);
             let [a, b] = [p, q].map(|k| f64::from(k) * step);
-            let wave = |place: &Point| (a * (place.re + 0.5)).cos() * (b * (place.im + 0.5)).cos();
+            let wave = |place: &Point2| (a * (place.re + 0.5)).cos() * (b * (place.im + 0.5)).cos();
             let eigenvalue = 4.0 - 2.0 * a.cos() - 2.0 * b.cos();
             let count = places.len() - 1;
-            let mut right: Vec<Point> = [&places[..one], &places[..one]]
+            let mut right: Vec<Point2> = [&places[..one], &places[..one]]
                 .concat()
                 .iter()
-                .map(|place| Point::new(wave(place), -2.0 * wave(place)))
+                .map(|place| Point2::new(wave(place), -2.0 * wave(place)))
                 .collect();
-            right.push(Point::default());
-            let mut solution = vec![Point::default(); count + 1];
+            right.push(Point2::default());
+            let mut solution = vec![Point2::default(); count + 1];
             factor.solve(&right, &mut solution);
             // The solution is unique but for a translation of each grid, which its vertex that is held limits.
             for grid in [0..one, one..count] {
-                let expected: Vec<Point> =
+                let expected: Vec<Point2> =
                     right[grid.clone()].iter().map(|b| b / eigenvalue).collect();
                 let found = &solution[grid];
                 let shift = found[0] - expected[0];
@@ -242,7 +242,7 @@ mod tests {
                     );
                 }
             }
-            assert_eq!(solution[count], Point::default());
+            assert_eq!(solution[count], Point2::default());
         }
     }
 }

@@ -1,7 +1,11 @@
 //! Connected components of a surface, each rotated to its place in the view from above.
 
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
 use super::flat_triangle::Point;
 use crate::error::{Result, try_filled};
+use crate::math::motion::Motion;
 use crate::math::union_find::UnionFind;
 use crate::scene::triangulation::Triangulation;
 
@@ -18,70 +22,40 @@ pub(super) fn components(mesh: &Triangulation) -> Result<(Vec<u32>, usize)> {
         sets.union(*a, *c);
     }
     // Roots are the first vertices of their parts.
-    let mut numbers = try_filled("parts of the surface", vertices, 0)?;
-    let mut sizes: Vec<usize> = Vec::new();
-    for i in 0..vertices as u32 {
-        let first = sets.find(i);
-        if first == i {
-            numbers[i as usize] = sizes.len() as u32;
-            sizes.push(0);
-        }
-        numbers[i as usize] = numbers[first as usize];
-        sizes[numbers[i as usize] as usize] += 1;
+    let mut parts = try_filled("parts of the surface", vertices, 0)?;
+    let mut sizes: BTreeMap<u32, usize> = BTreeMap::new();
+    for vertex in 0..vertices as u32 {
+        parts[vertex as usize] = sets.find(vertex);
+        *sizes.entry(parts[vertex as usize]).or_default() += 1;
     }
-    let largest = (0..sizes.len()).rev().max_by_key(|part| sizes[*part]);
-    let largest = largest.unwrap_or(0) as u32;
-    for number in &mut numbers {
-        *number = match *number {
-            n if n == largest => 0,
-            n if n < largest => n + 1,
-            n => n,
-        };
+    let mut order: Vec<(u32, usize)> = sizes.into_iter().collect();
+    order.sort_by_key(|(_, size)| Reverse(*size));
+    if let Some(others) = order.get_mut(1..) {
+        others.sort_by_key(|(first, _)| *first);
     }
-    Ok((numbers, sizes.len()))
+    let numbers: BTreeMap<u32, u32> = order.iter().map(|(first, _)| *first).zip(0..).collect();
+    parts.iter_mut().for_each(|part| *part = numbers[part]);
+    Ok((parts, order.len()))
 }
 
-/// Rotates and translates each component of the flat layout to its position in the view from above, by least squares
-/// (the Procrustes problem without scaling).
+/// Rotates and translates each component of the flat layout to its position in the view from above, by least squares.
 pub(super) fn align_to_plan(
     mesh: &Triangulation,
     parts: &[u32],
     count: usize,
     places: &mut [Point],
 ) {
-    #[derive(Clone, Copy, Default)]
-    struct Sums {
-        vertices: f64,
-        place: Point,
-        plan: Point,
-        correlation: Point,
+    let mut members = vec![Vec::new(); count];
+    for (vertex, part) in parts.iter().enumerate() {
+        members[*part as usize].push(vertex);
     }
-    let plan = |i: usize| Point::new(mesh.positions()[i][0], mesh.positions()[i][1]);
-    let mut sums = vec![Sums::default(); count];
-    for (i, (part, place)) in parts.iter().zip(&*places).enumerate() {
-        let sum = &mut sums[*part as usize];
-        sum.vertices += 1.0;
-        sum.place += place;
-        sum.plan += plan(i);
-    }
-    for sum in &mut sums {
-        sum.place /= sum.vertices;
-        sum.plan /= sum.vertices;
-    }
-    for (i, (part, place)) in parts.iter().zip(&*places).enumerate() {
-        let sum = &mut sums[*part as usize];
-        let term = (place - sum.place).conj() * (plan(i) - sum.plan);
-        sum.correlation += term;
-    }
-    for (part, place) in parts.iter().zip(places) {
-        let sum = &sums[*part as usize];
-        let size = sum.correlation.norm();
-        let turn = if size > 0.0 {
-            sum.correlation / size
-        } else {
-            Point::new(1.0, 0.0)
-        };
-        *place = sum.plan + turn * (*place - sum.place);
+    for own in members {
+        let plan = own.iter().map(|v| mesh.positions()[*v]);
+        let plan: Vec<Point> = plan.map(|[x, y, _]| Point::new(x, y)).collect();
+        let flat: Vec<Point> = own.iter().map(|v| places[*v]).collect();
+        let motion = Motion::between(&flat, &plan);
+        own.iter()
+            .for_each(|v| places[*v] = motion.apply(places[*v]));
     }
 }
 

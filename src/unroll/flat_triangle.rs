@@ -7,11 +7,13 @@ use std::ops::{Add, Mul, Sub, SubAssign};
 
 use nalgebra::{Complex, Vector3};
 
+use super::cholesky::Cholesky;
+
 /// A point of the plane, as a complex number.
 pub(crate) type Point = Complex<f64>;
 
 /// A position of a mesh's vertex, in the plane or in space.
-pub(super) trait Position:
+pub(crate) trait Position:
     Copy + Default + Add<Output = Self> + Sub<Output = Self> + SubAssign + Mul<f64, Output = Self> + Sum
 {
     /// Makes the local step for one triangle: finds the rotation `R` nearest to the triangle's map `J`, and returns the
@@ -22,6 +24,9 @@ pub(super) trait Position:
         descent: &mut [Self],
         corners: [usize; 3],
     ) -> f64;
+
+    /// Solves the system of the global step for all coordinates.
+    fn solve(factor: &mut Cholesky, descent: &[Self], corrections: &mut [Self]);
 }
 
 /// A triangle of a surface, moved to the plane without strain, with counter-clockwise corners: the first at 0, the
@@ -132,6 +137,10 @@ impl Position for Point {
         descent[c] += pac + pbc;
         wab * dab.norm_sqr() + wbc * dbc.norm_sqr() + wca * dac.norm_sqr()
     }
+
+    fn solve(factor: &mut Cholesky, descent: &[Self], corrections: &mut [Self]) {
+        factor.solve(descent, corrections);
+    }
 }
 
 impl Position for Vector3<f64> {
@@ -172,5 +181,20 @@ impl Position for Vector3<f64> {
         descent[b] += pab - pbc;
         descent[c] += pac + pbc;
         wab * dab.norm_squared() + wbc * dbc.norm_squared() + wca * dac.norm_squared()
+    }
+
+    fn solve(factor: &mut Cholesky, descent: &[Self], corrections: &mut [Self]) {
+        // Two coordinates at once, then the third.
+        let mut solution = vec![Point::default(); descent.len()];
+        let plan: Vec<Point> = descent.iter().map(|d| Point::new(d.x, d.y)).collect();
+        factor.solve(&plan, &mut solution);
+        for (correction, solved) in corrections.iter_mut().zip(&solution) {
+            (correction.x, correction.y) = (solved.re, solved.im);
+        }
+        let heights: Vec<Point> = descent.iter().map(|d| Point::new(d.z, 0.0)).collect();
+        factor.solve(&heights, &mut solution);
+        for (correction, solved) in corrections.iter_mut().zip(&solution) {
+            correction.z = solved.re;
+        }
     }
 }

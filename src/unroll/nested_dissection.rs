@@ -1,9 +1,9 @@
 //! Order of elimination of a mesh's vertices by nested dissection (George 1973): a set of vertices is cut in two halves by
 //! position, and those of one half with a neighbour in the other are eliminated after both.
 
-use super::flat_triangle::Point;
 use super::sparse_rows::SparseRows;
 use crate::error::{Result, try_filled};
+use crate::math::planar::Point2;
 
 /// Maximum number of vertices of a set that is not cut in two further: a small dense front costs less than its indices.
 /// `benches/patterns.md` has what others give.
@@ -22,7 +22,7 @@ impl Order {
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub(super) fn new(matrix: &SparseRows, positions: &[Point]) -> Result<Order> {
+    pub(super) fn new(matrix: &SparseRows, positions: &[Point2]) -> Result<Order> {
         let count = positions.len();
         let mut dissection = Dissection {
             matrix,
@@ -43,7 +43,7 @@ impl Order {
 /// The state of ordering the vertices by nested dissection.
 struct Dissection<'a> {
     matrix: &'a SparseRows,
-    positions: &'a [Point],
+    positions: &'a [Point2],
     /// Number of the half that each vertex was in last.
     halves: Vec<u32>,
     /// Number of halves so far.
@@ -58,13 +58,13 @@ impl Dissection<'_> {
             return self.add_front(vertices);
         }
         let (mut low, mut high) = (
-            Point::new(f64::MAX, f64::MAX),
-            Point::new(f64::MIN, f64::MIN),
+            Point2::new(f64::MAX, f64::MAX),
+            Point2::new(f64::MIN, f64::MIN),
         );
         for vertex in &*vertices {
             let place = self.positions[*vertex as usize];
-            low = Point::new(low.re.min(place.re), low.im.min(place.im));
-            high = Point::new(high.re.max(place.re), high.im.max(place.im));
+            low = Point2::new(low.re.min(place.re), low.im.min(place.im));
+            high = Point2::new(high.re.max(place.re), high.im.max(place.im));
         }
         let is_wide = high.re - low.re > high.im - low.im;
         let key = |vertex: &u32| {

@@ -576,7 +576,7 @@ fn bends_take_the_length_of_their_neutral_line() {
             .to_string()
     };
     assert!(
-        refused(&pyramid(), metal).contains("ends inside"),
+        refused(&pyramid(), metal).contains("meets another one"),
         "{}",
         refused(&pyramid(), metal)
     );

@@ -236,7 +236,8 @@ fn a_vertex_with_a_full_turn_around_it_is_folded_flat() {
     near(sheet.area, steep, 0.02);
     let drawing = Drawing::new(&sheets, &DrawingOptions::default()).unwrap();
     let worst = drawing.summary.worst_angle.unwrap();
-    assert_eq!((drawing.summary.points, worst.flat), (1, 360.0));
+    assert_eq!(drawing.summary.points, 1);
+    near(worst.flat, 360.0, 1e-9);
     near(worst.surface, 360.0, 0.5);
 }
 

@@ -222,14 +222,6 @@ impl Body {
             / 3.0
     }
 
-    /// Separates some triangles from a part of the mesh, as parts of their own. Returns the part numbers of all pieces.
-    pub(super) fn set_apart(&mut self, part: u32, apart: &[u32]) -> Result<Vec<u32>> {
-        let members = self.members(part);
-        let mut labels = vec![0; self.triangles.len()];
-        apart.iter().for_each(|t| labels[*t as usize] = 1);
-        self.part(&members, &labels)
-    }
-
     /// Divides a triangle into smaller ones at the new vertices on its edges.
     fn divide(&mut self, t: usize, middles: &FxHashMap<(u32, u32), u32>) {
         let corners = self.triangles[t];

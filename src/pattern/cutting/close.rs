@@ -52,7 +52,6 @@ impl Sheets<'_> {
     /// Divides a seam in two before one of its edges. Returns the number of the second one.
     fn divide(&mut self, seam: usize, at: usize) -> usize {
         self.whole.push(self.whole[seam]);
-        self.doubtful.push(self.doubtful[seam]);
         self.seams.divide(self.body, seam, at)
     }
 

@@ -4,16 +4,16 @@ use rustc_hash::FxHashSet;
 
 use super::body::Body;
 use super::join::Joined;
-use super::junction::Junctions;
+use super::junction::junctions;
 use super::lay::FlatPart;
 use super::refold::refold_sheet;
 use super::seams::Seams;
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
+use crate::math::motion::Motion;
 use crate::math::union_find::UnionFind;
 use crate::pattern::crumbs::remove_crumbs;
 use crate::pattern::flat_mesh::FlatMesh;
-use crate::pattern::motion::Motion;
 use crate::pattern::{Direction, Missing, Pattern, Seam, Sheet, Spot};
 use crate::shape::patches::{Crease, Patch};
 use crate::unroll::flat_triangle::Point;
@@ -29,8 +29,10 @@ pub(super) fn draw_sheets(
     mut missing: Missing,
     refold: bool,
 ) -> Result<Pattern> {
-    let junctions = Junctions::new(body, seams, joined);
-    let flat = flat_mesh(body, seams, joined);
+    let mut is_whole = vec![false; seams.all.len()];
+    (joined.iter().flat_map(|sheet| &sheet.whole)).for_each(|seam| is_whole[*seam] = true);
+    let flat = flat_mesh(body, seams, joined, &is_whole);
+    let mut junctions = junctions(body, seams, &is_whole, &flat.flat);
     let areas = body.areas();
     let mut regions = smooth_regions(areas.len(), seams, joined)?;
     let sheet = |own: &Joined| {
@@ -39,13 +41,16 @@ pub(super) fn draw_sheets(
             true => body.spacing.powi(2),
             false => 0.0,
         };
-        let mut drawn = flat.sheet(&own.laid.members, least, |vertex| junctions.at(vertex));
+        let mut drawn = flat.sheet(&own.laid.members, least);
         label_regions(&mut drawn.spots, &mut regions);
         Ok(Sheet {
             spacing: body.spacing,
             area: own.laid.area,
             strain: own.laid.strain,
             seam_gap: own.gap,
+            junctions: (own.laid.source.iter())
+                .filter_map(|vertex| junctions.remove(vertex))
+                .collect(),
             refolding: match refold {
                 true => Some(refold_sheet(body, &own.laid)?),
                 false => None,
@@ -57,7 +62,7 @@ pub(super) fn draw_sheets(
     let counted = flat.vertices_of_patches(areas.len());
     let patch = |(vertices, area): (usize, f64)| Patch { vertices, area };
     let patches: Vec<Patch> = counted.into_iter().zip(areas).map(patch).collect();
-    remove_crumbs(&mut sheets, &patches, &mut missing, |_| false);
+    remove_crumbs(&mut sheets, &patches, &mut missing);
     sheets.sort_by_key(|sheet| sheet.patches[0]);
     let crease = |seam: &super::seams::Seam| Crease {
         patches: seam.parts,
@@ -99,11 +104,14 @@ fn label_regions(spots: &mut Vec<Spot>, regions: &mut UnionFind) {
 }
 
 /// The triangles of a mesh on its sheets, cut along the seams that are not joined.
-fn flat_mesh<'a>(body: &'a Body, seams: &'a Seams, joined: &[Joined]) -> FlatMesh<'a> {
-    let mut whole = vec![false; seams.all.len()];
+fn flat_mesh<'a>(
+    body: &'a Body,
+    seams: &'a Seams,
+    joined: &[Joined],
+    is_whole: &[bool],
+) -> FlatMesh<'a> {
     let mut flat = vec![[Point::default(); 3]; body.triangles.len()];
     for sheet in joined {
-        sheet.whole.iter().for_each(|seam| whole[*seam] = true);
         let upright = upright(body, &sheet.laid);
         for (t, corners) in sheet.laid.members.iter().zip(&sheet.laid.triangles) {
             flat[*t as usize] = corners.map(|v| upright.apply(sheet.laid.places[v as usize]));
@@ -125,7 +133,7 @@ fn flat_mesh<'a>(body: &'a Body, seams: &'a Seams, joined: &[Joined]) -> FlatMes
         closed: (sides.clone())
             .map(|side| {
                 seams.twins[side as usize] != NO_INDEX
-                    && seams.of(side).is_none_or(|seam| whole[seam])
+                    && seams.of(side).is_none_or(|seam| is_whole[seam])
             })
             .collect(),
         flat,

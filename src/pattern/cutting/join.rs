@@ -5,7 +5,7 @@ use super::lay::{FlatPart, Lying};
 use super::reach::reach_into_each_other;
 use super::seams::Seams;
 use crate::error::Result;
-use crate::pattern::motion::Motion;
+use crate::math::motion::Motion;
 use crate::progress;
 use crate::scene::half_edges::next_half_edge;
 use crate::unroll::arap_mesh::StoppingCriteria;
@@ -115,9 +115,6 @@ pub(super) struct Sheets<'a> {
     pub at: Vec<Point>,
     /// For each seam whether its two sides are joined on a sheet.
     pub whole: Vec<bool>,
-    /// For each seam whether sheets were invalid that were joined along this seam together with another one. It is then
-    /// tried only by itself.
-    pub doubtful: Vec<bool>,
 }
 
 impl<'a> Sheets<'a> {
@@ -139,9 +136,11 @@ impl<'a> Sheets<'a> {
         let sheets = self.all.iter_mut().flatten();
         for sheet in sheets.filter(|sheet| sheet.laid.area > 0.0) {
             for weight in SIDE_WEIGHTS {
-                let laid = sheet
-                    .laid
-                    .with_sides(self.body, mean, weight, self.limits.until)?;
+                let laid =
+                    sheet
+                        .laid
+                        .clone()
+                        .with_sides(self.body, mean, weight, self.limits.until)?;
                 if self.limits.allow(&laid) {
                     sheet.laid = laid;
                     break;
@@ -164,7 +163,6 @@ impl<'a> Sheets<'a> {
             settled: vec![false; parts.len()],
             at: vec![Point::default(); 3 * body.triangles.len()],
             whole: vec![false; seams.all.len()],
-            doubtful: vec![false; seams.all.len()],
             body,
             seams,
             limits,
@@ -211,7 +209,7 @@ impl<'a> Sheets<'a> {
     /// Lays two sheets flat together, joined along a seam and along all other seams that then fit; `None` if the
     /// result is not a valid sheet.
     fn together(
-        &mut self,
+        &self,
         seam: usize,
         numbers: [usize; 2],
         order: &[usize],
@@ -223,18 +221,14 @@ impl<'a> Sheets<'a> {
         // Other seams may fit as well, such as the last one around a vertex whose angles sum to 2π.
         let others = order
             .iter()
-            .filter(|other| **other != seam && !self.doubtful[**other] && both.has(**other));
+            .filter(|other| **other != seam && both.has(**other));
         let also = others.filter_map(|other| Some((*other, both.fits(*other)?)));
         let all: Vec<(usize, f64)> = std::iter::once((seam, apart)).chain(also).collect();
         let found = both.laid(&all, self.limits, Trial::Join)?;
         if found.is_some() || all.len() == 1 {
             return Ok(found);
         }
-        let found = both.laid(&all[..1], self.limits, Trial::Join);
-        for (other, _) in &all[1..] {
-            self.doubtful[*other] = true;
-        }
-        found
+        both.laid(&all[..1], self.limits, Trial::Join)
     }
 
     /// Lays a sheet flat until convergence. Returns false if that was done before.

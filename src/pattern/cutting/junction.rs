@@ -1,142 +1,85 @@
-//! Points inside of a mesh where cuts or folds end, and the angle of the mesh around them.
+//! Points inside of a mesh where cuts or folds end, and the angles of the mesh and of its sheets around them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 
 use super::body::Body;
-use super::join::Joined;
-use super::seams::{Seam, Seams};
+use super::seams::Seams;
 use crate::pattern::Junction;
+use crate::unroll::flat_triangle::Point;
 
-/// Maximum radius around a point within which the surface's angle is measured, in edge lengths of the mesh.
+/// Maximum radius around a point within which angles are measured, in edge lengths of the mesh.
 /// `benches/patterns.md` has what others give.
 const MAX_ANGLE_RADIUS_LENGTHS: f64 = 20.0;
 
-/// Maximum radius around a point within which the surface's angle is measured, as a share of the shortest seam that
-/// ends there and of the distance to the nearest cut that does not. `benches/patterns.md` has what others give.
+/// Maximum radius around a point within which angles are measured, as a share of the shortest seam that ends there.
+/// `benches/patterns.md` has what others give.
 const ANGLE_RADIUS_SHARE: f64 = 0.8;
 
-/// Minimum radius around a point at which the surface's angle is measured, in edge lengths of the mesh; nearer to the point the sampling smooths the surface.
-/// `benches/patterns.md` has what others give.
+/// Minimum radius around a point at which angles are measured, in edge lengths of the mesh; nearer to the point the sampling smooths
+/// the surface. `benches/patterns.md` has what others give.
 const MIN_ANGLE_RADIUS_LENGTHS: f64 = 6.0;
 
-/// Radius around a point within which the surface's angle is measured, from the length of the shortest seam that ends there
-/// and the distance to the nearest cut that does not: what the surface bends beside another cut is taken up by that cut.
-fn angle_reach(spacing: f64, shortest: f64, other: f64) -> f64 {
-    (MAX_ANGLE_RADIUS_LENGTHS * spacing).min(ANGLE_RADIUS_SHARE * shortest.min(other))
-}
-
-/// The points of a mesh where cuts or folds end or meet, with the number of the vertex there as the key.
-pub(super) struct Junctions {
-    of: BTreeMap<u32, Junction>,
-}
-
-/// Data of a vertex where seams end, gathered before its angle is measured.
-#[derive(Clone)]
-struct PointSeams {
-    /// Number of cuts that end at the vertex. `edges` is the number of the vertex's edges that are cut.
-    cuts: usize,
-    edges: usize,
+/// The seams that end at a vertex.
+struct SeamEnds {
     shortest: f64,
-    /// Number of edges of the seam with the most edges that ends at the vertex.
+    /// Number of edges of the seam with the most edges.
     most: usize,
+    /// Lowest number of a seam that is cut.
+    cut: Option<usize>,
 }
 
-impl Junctions {
-    /// Returns the point where cuts or folds meet at a vertex; `None` if the border is near, or if a seam that ends there
-    /// is too short or another cut too near to measure an angle.
-    pub(super) fn at(&self, vertex: u32) -> Option<Junction> {
-        self.of.get(&vertex).copied()
+/// Measures the points where cuts or folds end, by the numbers of their vertices; those near the border are left out, and those at
+/// which a seam ends that is too short. `is_whole` tells which seams are joined, and `flat` has the positions of the corners of
+/// triangles on their sheets.
+pub(super) fn junctions(
+    body: &Body,
+    seams: &Seams,
+    is_whole: &[bool],
+    flat: &[[Point; 3]],
+) -> BTreeMap<u32, Junction> {
+    let mut all: BTreeMap<u32, SeamEnds> = BTreeMap::new();
+    for (number, (seam, is_whole)) in seams.all.iter().zip(is_whole).enumerate() {
+        let [first, last] = [0, seam.vertices.len() - 1].map(|k| seam.vertices[k]);
+        if first == last || *is_whole && seam.smooth {
+            continue;
+        }
+        for end in [first, last] {
+            let found = all.entry(end).or_insert(SeamEnds {
+                shortest: f64::INFINITY,
+                most: 0,
+                cut: None,
+            });
+            found.shortest = found.shortest.min(seam.length);
+            found.most = found.most.max(seam.sides.len());
+            found.cut = found.cut.or((!is_whole).then_some(number));
+        }
     }
-
-    pub(super) fn new(body: &Body, seams: &Seams, sheets: &[Joined]) -> Junctions {
-        let mut whole = vec![false; seams.all.len()];
-        for seam in sheets.iter().flat_map(|sheet| &sheet.whole) {
-            whole[*seam] = true;
+    let around = AngleDefects::new(body, flat);
+    let junction = |(vertex, ends): (u32, SeamEnds)| {
+        let longest = MAX_ANGLE_RADIUS_LENGTHS * body.spacing;
+        let reach = longest.min(ANGLE_RADIUS_SHARE * ends.shortest);
+        if ends.most > 1 && reach < MIN_ANGLE_RADIUS_LENGTHS * body.spacing {
+            return None;
         }
-        let mut all: BTreeMap<u32, PointSeams> = BTreeMap::new();
-        for (seam, _) in lines(seams, &whole) {
-            for end in ends(&seam.vertices) {
-                let blank = PointSeams {
-                    cuts: 0,
-                    edges: 0,
-                    shortest: f64::INFINITY,
-                    most: 0,
-                };
-                all.entry(end).or_insert(blank);
-            }
-        }
-        for (seam, cut) in lines(seams, &whole) {
-            for end in ends(&seam.vertices) {
-                if let Some(found) = all.get_mut(&end) {
-                    found.cuts += usize::from(cut);
-                    found.shortest = found.shortest.min(seam.length);
-                    found.most = found.most.max(seam.sides.len());
-                }
-            }
-            for vertex in seam.vertices.windows(2).flatten().filter(|_| cut) {
-                if let Some(found) = all.get_mut(vertex) {
-                    found.edges += 1;
-                }
-            }
-        }
-        // The vertices of all cuts, each with the ends of its cut.
-        let cut_vertices: Vec<(u32, Vec<u32>)> = lines(seams, &whole)
-            .filter(|(_, cut)| *cut)
-            .flat_map(|(seam, _)| seam.vertices.iter().map(|v| (*v, ends(&seam.vertices))))
-            .collect();
-        let around = AngleDefects::new(body);
-        let junction = |(vertex, found): (u32, PointSeams)| {
-            let others = cut_vertices
-                .iter()
-                .filter(|(_, ends)| !ends.contains(&vertex));
-            let place = body.places[vertex as usize];
-            let other = others
-                .map(|(other, _)| (body.places[*other as usize] - place).norm())
-                .fold(f64::INFINITY, f64::min);
-            let reach = angle_reach(body.spacing, found.shortest, other);
-            let short = found.most > 1 && reach < MIN_ANGLE_RADIUS_LENGTHS * body.spacing;
-            // A cut that passes through the vertex without an end divides the surface around it, so no angle is
-            // measured.
-            if short || found.edges != found.cuts {
-                return None;
-            }
-            let junction = Junction {
-                number: vertex as usize,
-                place: body.places[vertex as usize].into(),
-                angle: around.angle(vertex, reach)?,
-                reach,
-                cuts: found.cuts,
-            };
-            Some((vertex, junction))
+        let [surface, flat] = around.angles(vertex, reach)?;
+        let place = body.places[vertex as usize].into();
+        let junction = Junction {
+            place,
+            crease: ends.cut,
+            surface,
+            flat,
         };
-        Junctions {
-            of: all.into_iter().filter_map(junction).collect(),
-        }
-    }
+        Some((vertex, junction))
+    };
+    all.into_iter().filter_map(junction).collect()
 }
 
-/// Iterates over the seams that are cut or folded: yields each seam with a flag that is true if it is cut.
-fn lines<'a>(seams: &'a Seams, whole: &'a [bool]) -> impl Iterator<Item = (&'a Seam, bool)> {
-    let all = seams.all.iter().zip(whole);
-    all.filter(|(seam, whole)| !(**whole && seam.smooth))
-        .map(|(seam, whole)| (seam, !whole))
-}
-
-/// Lists the vertices where a seam's line ends; none for a closed line.
-fn ends(vertices: &[u32]) -> Vec<u32> {
-    let (first, last) = (vertices[0], vertices[vertices.len() - 1]);
-    match first == last {
-        true => Vec::new(),
-        false => vec![first, last],
-    }
-}
-
-/// Angle defects and neighbours of all vertices of a mesh, for measuring angles around points.
+/// Angle defects of all vertices of a mesh, in space and on its sheets, and their neighbours.
 struct AngleDefects<'a> {
     body: &'a Body,
-    /// Angle defect of each vertex: a full turn less the angles around it; NaN at the border.
-    missing: Vec<f64>,
+    /// Angle defects of each vertex, in space and on the sheets: a full turn less the angles around it; NaN at the border.
+    defects: Vec<[f64; 2]>,
     /// Numbers of the neighbours of all vertices, vertex by vertex; `starts` holds the position of each vertex's first
     /// neighbour in this list.
     neighbours: Vec<u32>,
@@ -144,21 +87,26 @@ struct AngleDefects<'a> {
 }
 
 impl AngleDefects<'_> {
-    fn new(body: &Body) -> AngleDefects<'_> {
+    fn new<'a>(body: &'a Body, flat: &[[Point; 3]]) -> AngleDefects<'a> {
         let count = body.places.len();
-        let mut missing = body.angle_defects();
+        let in_space = body.angle_defects().into_iter();
+        let mut defects: Vec<[f64; 2]> = in_space.map(|defect| [defect, TAU]).collect();
         // An interior edge occurs in both directions.
         let mut edges = Vec::with_capacity(3 * body.triangles.len());
-        for corners in &body.triangles {
-            edges.extend((0..3).map(|k| (corners[k], corners[(k + 1) % 3])));
+        for (corners, places) in body.triangles.iter().zip(flat) {
+            for k in 0..3 {
+                let [a, b, c] = [0, 1, 2].map(|i| places[(k + i) % 3]);
+                defects[corners[k] as usize][1] -= ((b - a).conj() * (c - a)).arg();
+                edges.push((corners[k], corners[(k + 1) % 3]));
+            }
         }
         edges.sort_unstable();
         let mut starts = vec![0; count + 1];
         for (a, b) in &edges {
             starts[*a as usize + 1] += 1;
             if edges.binary_search(&(*b, *a)).is_err() {
-                missing[*a as usize] = f64::NAN;
-                missing[*b as usize] = f64::NAN;
+                defects[*a as usize] = [f64::NAN; 2];
+                defects[*b as usize] = [f64::NAN; 2];
             }
         }
         for k in 0..count {
@@ -166,30 +114,31 @@ impl AngleDefects<'_> {
         }
         AngleDefects {
             body,
-            missing,
+            defects,
             neighbours: edges.into_iter().map(|(_, b)| b).collect(),
             starts,
         }
     }
 
-    /// Computes the angle of the surface around a vertex, in radians: 2π less the sum of the angle defects within a
-    /// circle, averaged over radii from half of `reach` to `reach`. It is exact where flat faces meet. `None` if the
+    /// Computes the angles around a vertex, in radians, of the surface and of its flat pieces: 2π less the sum of the angle defects
+    /// within a circle, averaged over radii from half of `reach` to `reach`. They are exact where flat faces meet. `None` if the
     /// border is within `reach`.
-    fn angle(&self, vertex: u32, reach: f64) -> Option<f64> {
+    fn angles(&self, vertex: u32, reach: f64) -> Option<[f64; 2]> {
         let middle = self.body.places[vertex as usize];
         let mut seen = BTreeSet::from([vertex]);
         let mut open = vec![vertex];
-        let mut angle = TAU;
+        let mut angles = [TAU; 2];
         while let Some(one) = open.pop() {
             let far = (self.body.places[one as usize] - middle).norm() / reach;
             if far > 1.0 {
                 continue;
             }
-            let missing = self.missing[one as usize];
-            if missing.is_nan() {
+            let defects = self.defects[one as usize];
+            if defects[0].is_nan() {
                 return None;
             }
-            angle -= missing * (2.0 * (1.0 - far)).min(1.0);
+            let share = (2.0 * (1.0 - far)).min(1.0);
+            angles = [0, 1].map(|k| angles[k] - share * defects[k]);
             let own = self.starts[one as usize]..self.starts[one as usize + 1];
             for next in &self.neighbours[own] {
                 if seen.insert(*next) {
@@ -197,6 +146,6 @@ impl AngleDefects<'_> {
                 }
             }
         }
-        Some(angle)
+        Some(angles)
     }
 }

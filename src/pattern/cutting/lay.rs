@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::math::planar::orientation;
 use crate::math::union_find::UnionFind;
-use crate::scene::half_edges::{half_edge_ends, next_half_edge, twin_half_edges};
+use crate::scene::half_edges::{half_edge_ends, next_half_edge, outlines, twin_half_edges};
 use crate::unroll::arap_mesh::{ArapMesh, StoppingCriteria};
 use crate::unroll::flat_triangle::{FlatTriangle, Point};
 use crate::unroll::overlap::crossings;
@@ -33,10 +33,6 @@ pub(super) struct FlatPart {
     pub worst: usize,
 }
 
-/// Maximum share of a part's triangles that may be removed where the part's border crosses itself.
-/// `benches/patterns.md` has what others give.
-const MAX_REMOVED_SHARE: f64 = 0.01;
-
 /// Stopping criteria of the solver that lays a sheet flat whose cut is tried to be closed.
 const TRIAL_RELAXATION: StoppingCriteria = StoppingCriteria {
     tolerance: 1e-8,
@@ -46,6 +42,10 @@ const TRIAL_RELAXATION: StoppingCriteria = StoppingCriteria {
     max_steps: 6,
 };
 
+/// Number of solver iterations that are made before the solver may give up a layout.
+/// `benches/patterns.md` has what others give.
+const UNCONDITIONAL_STEPS: usize = 40;
+
 /// Initial flat positions of triangles, from which the solver reduces their strain.
 pub(super) enum Lying<'a> {
     /// Triangles are unfolded into the plane one after the other, over common edges.
@@ -53,10 +53,6 @@ pub(super) enum Lying<'a> {
     /// A function that gives the flat position of each corner of the whole mesh's triangles.
     At(&'a dyn Fn(u32) -> Point),
 }
-
-/// Number of solver iterations that are made before the solver may give up a layout.
-/// `benches/patterns.md` has what others give.
-const UNCONDITIONAL_STEPS: usize = 40;
 
 impl FlatPart {
     /// Places triangles in the plane, by unfolding them or at given positions. `twins` holds the opposite of each
@@ -119,34 +115,47 @@ impl FlatPart {
     }
 
     /// Moves the vertices from their current flat positions to those of the least strain.
-    pub(super) fn relaxed(mut self, body: &Body, until: StoppingCriteria) -> Result<FlatPart> {
-        let pieces = self.pieces(body);
-        self.relax(&pieces, until)?;
-        Ok(self)
+    pub(super) fn relaxed(self, body: &Body, until: StoppingCriteria) -> Result<FlatPart> {
+        self.with_sides(body, |_| None, 0.0, until)
+    }
+
+    /// Moves the vertices near to the positions of least strain: later steps hardly lower the strain of a sheet.
+    pub(super) fn closed(self, body: &Body) -> Result<FlatPart> {
+        self.relaxed(body, TRIAL_RELAXATION)
     }
 
     /// Moves the vertices to the positions of least strain at which edges along the border have given lengths, by the half-edges of the
     /// whole mesh; the weight is that of the squared difference of a length in the energy.
     pub(super) fn with_sides(
-        &self,
+        mut self,
         body: &Body,
         length: impl Fn(u32) -> Option<f64>,
         weight: f64,
         until: StoppingCriteria,
     ) -> Result<FlatPart> {
-        let mut laid = self.clone();
-        let pieces = laid.pieces(body);
-        let triangles = pieces.iter().copied().zip(laid.triangles.iter().copied());
-        let edges = laid.border().filter_map(|side| {
-            let [from, to] = half_edge_ends(&laid.triangles, side);
-            let length = length(3 * laid.members[side as usize / 3] + side % 3)?;
+        let own = self.members.iter().map(|t| body.triangles[*t as usize]);
+        let pieces: Vec<FlatTriangle> = own.map(|t| piece(body, t)).collect();
+        let triangles = pieces.iter().copied().zip(self.triangles.iter().copied());
+        let edges = self.border().filter_map(|side| {
+            let [from, to] = half_edge_ends(&self.triangles, side);
+            let length = length(3 * self.members[side as usize / 3] + side % 3)?;
             Some((FlatTriangle::edge(length, weight), [from, to, to]))
         });
         let all = triangles.chain(edges).filter(|(piece, _)| piece.exists());
-        let mut problem = ArapMesh::new(&laid.places, all.collect())?;
-        problem.minimise_in_plane(&mut laid.places, until)?;
-        laid.measure(&pieces);
-        Ok(laid)
+        let mut problem = ArapMesh::new(&self.places, all.collect())?;
+        // Slow progress in the first steps is no reason to stop: an error at one end takes several steps to reach
+        // the other.
+        let start = StoppingCriteria {
+            max_steps: until.max_steps.min(UNCONDITIONAL_STEPS),
+            hopeless_energy: f64::INFINITY,
+            ..until
+        };
+        let steps = problem.minimise(&mut self.places, start)?.steps;
+        if steps == UNCONDITIONAL_STEPS && until.max_steps > UNCONDITIONAL_STEPS {
+            problem.minimise(&mut self.places, until)?;
+        }
+        self.measure(&pieces);
+        Ok(self)
     }
 
     /// Length on the sheet of each half-edge of its triangles, by the half-edges of the whole mesh.
@@ -158,45 +167,6 @@ impl FlatPart {
                 let place = |k: usize| self.places[corners[k % 3] as usize];
                 [0, 1, 2].map(|k| (3 * t + k as u32, (place(k + 1) - place(k)).norm()))
             })
-    }
-
-    /// Moves the vertices near to the positions of least strain: later steps hardly lower the strain of a sheet.
-    pub(super) fn closed(mut self, body: &Body) -> Result<FlatPart> {
-        let pieces = self.pieces(body);
-        let mut joint = self.problem(&pieces)?;
-        joint.minimise_in_plane(&mut self.places, TRIAL_RELAXATION)?;
-        self.measure(&pieces);
-        Ok(self)
-    }
-
-    /// Moves each triangle to a plane of its own.
-    fn pieces(&self, body: &Body) -> Vec<FlatTriangle> {
-        let own = self.members.iter().map(|t| body.triangles[*t as usize]);
-        own.map(|t| piece(body, t)).collect()
-    }
-
-    /// Creates the problem of laying the triangles that have an area flat together.
-    fn problem(&self, pieces: &[FlatTriangle]) -> Result<ArapMesh> {
-        let whole = pieces.iter().copied().zip(self.triangles.iter().copied());
-        let whole = whole.filter(|(piece, _)| piece.exists()).collect();
-        ArapMesh::new(&self.places, whole)
-    }
-
-    fn relax(&mut self, pieces: &[FlatTriangle], until: StoppingCriteria) -> Result<()> {
-        let mut joint = self.problem(pieces)?;
-        // Slow progress in the first steps is no reason to stop: an error at one end takes several steps to reach
-        // the other.
-        let start = StoppingCriteria {
-            max_steps: until.max_steps.min(UNCONDITIONAL_STEPS),
-            hopeless_energy: f64::INFINITY,
-            ..until
-        };
-        let steps = joint.minimise_in_plane(&mut self.places, start)?.steps;
-        if steps == UNCONDITIONAL_STEPS && until.max_steps > UNCONDITIONAL_STEPS {
-            joint.minimise_in_plane(&mut self.places, until)?;
-        }
-        self.measure(pieces);
-        Ok(())
     }
 
     /// Unfolds one triangle after the other into the plane, next to those that are laid already.
@@ -306,63 +276,18 @@ impl FlatPart {
 
     /// The closed lines around the flat part.
     pub(super) fn lines(&self) -> Vec<Vec<Point>> {
-        let mut is_done = vec![false; self.twins.len()];
-        let mut lines = Vec::new();
-        for first in self.border() {
-            let mut line = Vec::new();
-            let mut side = first;
-            while !std::mem::replace(&mut is_done[side as usize], true) {
-                line.push(
-                    self.places[self.triangles[side as usize / 3][side as usize % 3] as usize],
-                );
-                side = next_half_edge(side);
-                while self.twins[side as usize] != NO_INDEX {
-                    side = next_half_edge(self.twins[side as usize]);
-                }
-            }
-            if line.len() > 2 {
-                lines.push(line);
-            }
-        }
+        let is_cut = |side: u32| self.twins[side as usize] == NO_INDEX;
+        let start = |side: &u32| self.triangles[*side as usize / 3][*side as usize % 3];
+        let lines = outlines(&self.twins, self.border(), is_cut);
+        let mut lines: Vec<Vec<Point>> = (lines.iter())
+            .map(|line| {
+                line.iter()
+                    .map(|side| self.places[start(side) as usize])
+                    .collect()
+            })
+            .collect();
+        lines.retain(|line| line.len() > 2);
         lines
-    }
-
-    /// Finds the few triangles of the flat part whose removal would leave a border that does not cross itself; empty if
-    /// there would be too many, or if removal does not help.
-    pub(super) fn removable_triangles(&self) -> Vec<u32> {
-        let most = (MAX_REMOVED_SHARE * self.members.len() as f64).ceil() as usize;
-        let mut left = self.clone();
-        let mut removed = Vec::new();
-        loop {
-            let sides: Vec<u32> = left.border().collect();
-            let border: Vec<[u32; 2]> = sides
-                .iter()
-                .map(|s| half_edge_ends(&left.triangles, *s))
-                .collect();
-            let crossings = crossings(&left.places, &border);
-            if crossings.is_empty() {
-                return match left.covers_itself(&border) {
-                    true => Vec::new(),
-                    false => removed,
-                };
-            }
-            let area = |t: usize| {
-                let [a, b, c] = left.triangles[t].map(|v| left.places[v as usize]);
-                ((b - a).conj() * (c - a)).im
-            };
-            let smaller = |pair: &[usize; 2]| {
-                let [one, other] = pair.map(|edge| sides[edge] as usize / 3);
-                if area(one) < area(other) { one } else { other }
-            };
-            let mut off: Vec<usize> = crossings.iter().map(smaller).collect();
-            off.sort_unstable();
-            off.dedup();
-            removed.extend(off.iter().map(|t| left.members[*t]));
-            if removed.len() > most {
-                return Vec::new();
-            }
-            left.take_off(&off);
-        }
     }
 
     /// Lays triangles flat: unfolds them into the plane one after the other, then moves their vertices to the least
@@ -376,35 +301,6 @@ impl FlatPart {
             .map(|t| body.triangles[*t as usize])
             .collect();
         FlatPart::new(body, members, twin_half_edges(&own), Lying::TurnedOver)?.relaxed(body, until)
-    }
-
-    /// Removes some triangles, given by ascending numbers, from the flat part.
-    fn take_off(&mut self, off: &[usize]) {
-        for t in off {
-            for side in 3 * t..3 * t + 3 {
-                let twin = std::mem::replace(&mut self.twins[side], NO_INDEX);
-                if twin != NO_INDEX {
-                    self.twins[twin as usize] = NO_INDEX;
-                }
-            }
-        }
-        let mut numbers = vec![NO_INDEX; self.members.len()];
-        let mut rest = 0;
-        for t in (0..self.members.len()).filter(|t| off.binary_search(t).is_err()) {
-            numbers[t] = rest as u32;
-            self.members[rest] = self.members[t];
-            self.triangles[rest] = self.triangles[t];
-            for k in 0..3 {
-                self.twins[3 * rest + k] = self.twins[3 * t + k];
-            }
-            rest += 1;
-        }
-        self.members.truncate(rest);
-        self.triangles.truncate(rest);
-        self.twins.truncate(3 * rest);
-        for twin in self.twins.iter_mut().filter(|twin| **twin != NO_INDEX) {
-            *twin = 3 * numbers[*twin as usize / 3] + *twin % 3;
-        }
     }
 
     /// Returns whether the centroid of a triangle lies on another triangle, by the border's winding number around the

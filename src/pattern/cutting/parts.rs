@@ -56,14 +56,6 @@ pub(super) fn flat_parts(mut body: Body, limits: Limits) -> Result<(Body, Vec<Fl
             continue;
         }
         flat.remove(&part);
-        let removed = match laid.strain <= limits.strain {
-            true => laid.removable_triangles(),
-            false => Vec::new(),
-        };
-        if !removed.is_empty() && body.count < MAX_PARTS {
-            open.extend(body.set_apart(part, &removed)?);
-            continue;
-        }
         if laid.source.len() < MIN_CUT_VERTICES {
             leave_out(&body, part, &laid)?;
             continue;
@@ -202,22 +194,6 @@ mod tests {
         places.push(up);
         triangles.push([foot[1], places.len() as u32 - 1, foot[0]]);
         (places, triangles)
-    }
-
-    #[test]
-    fn a_tooth_that_would_lie_on_its_sheet_is_set_apart_alone() {
-        let (places, triangles) = disk_with_tooth();
-        let tooth = triangles.len() as u32 - 1;
-        let labels = vec![0; triangles.len()];
-        let body = Body::new(places, triangles, labels).unwrap();
-        let whole = FlatPart::whole(&body, body.members(0), UNTIL).unwrap();
-        assert!(whole.strain < 1e-9 && whole.overlaps());
-        let (_, parts, _) = flat_parts(body, LIMITS).unwrap();
-        let [disk, alone] = &parts[..] else {
-            panic!("{} parts", parts.len());
-        };
-        assert!(!disk.overlaps() && disk.strain < 1e-9);
-        assert_eq!(alone.members, [tooth]);
     }
 
     #[test]

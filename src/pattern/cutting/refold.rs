@@ -35,7 +35,7 @@ pub(super) fn refold_sheet(body: &Body, laid: &FlatPart) -> Result<Refolding> {
     let plan: Vec<Point> = built.iter().map(|p| Point::new(p.x, p.y)).collect();
     let mut places = built.clone();
     let mut sheet = ArapMesh::new(&plan, pieces)?;
-    sheet.minimise_in_space(&mut places, REFOLDING_RELAXATION)?;
+    sheet.minimise(&mut places, REFOLDING_RELAXATION)?;
     let strain = sheet.strain_in_space(&places);
     register(&mut places, &built);
     let away = || places.iter().zip(&built).map(|(p, q)| (p - q).norm());
@@ -47,9 +47,7 @@ pub(super) fn refold_sheet(body: &Body, laid: &FlatPart) -> Result<Refolding> {
     })
 }
 
-/// Registers a point set to another by the rigid motion with the least sum of squared distances. The rotation is found
-/// iteratively from the points' correlation matrix, starting from none (Müller et al. 2016, *A Robust Method to Extract
-/// the Rotational Part of Deformations*).
+/// Registers a point set to another by the rigid motion with the least sum of squared distances.
 fn register(places: &mut [Vector3<f64>], others: &[Vector3<f64>]) {
     let count = places.len().max(1) as f64;
     let here = places.iter().sum::<Vector3<f64>>() / count;
@@ -58,27 +56,11 @@ fn register(places: &mut [Vector3<f64>], others: &[Vector3<f64>]) {
     let spread: Matrix3<f64> = pairs
         .map(|(p, q)| (q - there) * (p - here).transpose())
         .sum();
-    let mut turn = Rotation3::identity();
-    for _ in 0..MAX_ROTATION_ITERATIONS {
-        let columns = (0..3).map(|k| (turn.matrix().column(k).into_owned(), spread.column(k)));
-        let (mut axis, mut along) = (Vector3::zeros(), 0.0);
-        for (own, wanted) in columns {
-            axis += own.cross(&wanted);
-            along += own.dot(&wanted);
-        }
-        let step = axis / (along.abs() + f64::MIN_POSITIVE);
-        turn = Rotation3::new(step) * turn;
-        if step.norm() < 1e-12 {
-            break;
-        }
-    }
+    let turn = Rotation3::from_matrix(&spread);
     for place in places {
         *place = turn * (*place - here) + there;
     }
 }
-
-/// Maximum number of iterations for the rotation that registers two point sets.
-const MAX_ROTATION_ITERATIONS: usize = 50;
 
 #[cfg(test)]
 mod tests {

@@ -1,7 +1,6 @@
 //! The lines between the parts of a body, along which these are joined to sheets or cut.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 
 use super::body::{Body, Place};
 use crate::math::index::NO_INDEX;
@@ -33,9 +32,8 @@ pub(super) struct Seams {
 }
 
 impl Seams {
-    /// Finds the seams of a mesh. A line of edges between two parts is divided into two seams where its fold angle
-    /// passes `bend`, in radians, so that a cut that follows a crease along a part of its length is a seam of its own
-    /// there. Fold angles are those between the normals at a distance of `crease_width` from the line.
+    /// Finds the seams of a mesh: the lines of edges between two parts. Inside of a patch such a line is a crease if its mean fold angle is
+    /// above `bend`, in radians. Fold angles are those between the normals at a distance of `crease_width` from the line.
     pub(super) fn new(body: &Body, bend: f64, crease_width: f64) -> Seams {
         let twins = twin_half_edges(&body.triangles);
         let mut between: BTreeMap<[u32; 2], Vec<[u32; 2]>> = BTreeMap::new();
@@ -58,30 +56,22 @@ impl Seams {
                 .collect();
             for chain in chains(&edges, |vertex| pointed[vertex as usize]) {
                 let sides: Vec<[u32; 2]> = chain.edges.iter().map(|edge| pairs[*edge]).collect();
-                let width = match is_one(body, sides[0]) {
-                    true => 0.0,
-                    false => crease_width,
-                };
+                let is_one = is_one(body, sides[0]);
+                let width = if is_one { 0.0 } else { crease_width };
                 let folds = sides
                     .iter()
                     .map(|pair| fold(body, &seams.twins, *pair, width));
                 let folds: Vec<(f64, f64)> = folds.collect();
-                // Between different patches a smaller angle suffices for a crease.
-                let bend = match is_one(body, sides[0]) {
-                    true => bend,
-                    false => MIN_PATCH_BEND_SHARE * bend,
-                };
-                for (run, sharp) in stretches(&folds, bend) {
-                    seams.add(Seam {
-                        parts,
-                        vertices: chain.vertices[run.start..=run.end].to_vec(),
-                        smooth: !sharp && is_one(body, sides[run.start]),
-                        sides: sides[run.clone()].to_vec(),
-                        length: folds[run.clone()].iter().map(|(long, _)| long).sum(),
-                        angle: mean(&folds[run]),
-                        line: [seams.all.len(), 0],
-                    });
-                }
+                let angle = mean(&folds);
+                seams.add(Seam {
+                    parts,
+                    smooth: is_one && angle.abs() <= bend,
+                    vertices: chain.vertices,
+                    sides,
+                    length: folds.iter().map(|(long, _)| long).sum(),
+                    angle,
+                    line: [seams.all.len(), 0],
+                });
             }
         }
         seams
@@ -180,35 +170,6 @@ fn length(body: &Body, vertices: &[u32]) -> f64 {
 fn is_one(body: &Body, pair: [u32; 2]) -> bool {
     let [a, b] = pair.map(|side| body.patches[side as usize / 3]);
     a == b
-}
-
-/// Minimum fold angle of a crease between two patches, as a share of the minimum inside of one patch.
-/// `benches/patterns.md` has what others give.
-const MIN_PATCH_BEND_SHARE: f64 = 0.25;
-
-/// Number of edges on either side over which the fold angle along a line is averaged; also the minimum number of
-/// edges of a crease. `benches/patterns.md` has what others give.
-const CREASE_WINDOW_EDGES: usize = 2;
-
-/// Divides a line of edges, given by their lengths and fold angles, into ranges where the line is a crease and
-/// ranges where the surface is smooth.
-fn stretches(folds: &[(f64, f64)], bend: f64) -> Vec<(Range<usize>, bool)> {
-    let is_sharp = |k: usize| {
-        let near =
-            k.saturating_sub(CREASE_WINDOW_EDGES)..(k + CREASE_WINDOW_EDGES + 1).min(folds.len());
-        mean(&folds[near]).abs() > bend
-    };
-    let mut found: Vec<(Range<usize>, bool)> = Vec::new();
-    for k in 0..folds.len() {
-        let sharp = is_sharp(k);
-        match found.last_mut() {
-            Some((run, before)) if *before == sharp || run.len() <= CREASE_WINDOW_EDGES => {
-                run.end = k + 1
-            }
-            _ => found.push((k..k + 1, sharp)),
-        }
-    }
-    found
 }
 
 /// Computes the mean fold angle of edges, weighted by the edges' lengths.

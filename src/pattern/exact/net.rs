@@ -6,8 +6,8 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::error::{Error, Result};
 use crate::math::index::NO_INDEX;
+use crate::math::motion::Motion;
 use crate::math::planar::{LeastBox, Point2, cross};
-use crate::pattern::motion::Motion;
 use crate::scene::polyhedron::Polyhedron;
 
 /// Maximum number of cells of all grids for each triangle. Slender triangles get larger cells.

@@ -5,8 +5,8 @@ use rustc_hash::FxHashSet;
 
 use super::net::Net;
 use crate::error::Result;
+use crate::math::motion::Motion;
 use crate::math::union_find::UnionFind;
-use crate::pattern::motion::Motion;
 
 /// Work of the search for fewer pieces and shorter cuts, in triangles that are placed or compared.
 /// `benches/patterns.md` has what others give.

@@ -56,7 +56,7 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
         let members = (0u32..).zip(&solid.facets);
         let members = members.filter(|(_, facet)| is_own[**facet as usize]);
         let members: Vec<u32> = members.map(|(t, _)| t).collect();
-        let mut sheet = flat.sheet(&members, |_| 0.0, |_| None);
+        let mut sheet = flat.sheet(&members, |_| 0.0);
         mark_bends(&mut sheet.folds, |fold| {
             let beside = fold.seam.patches.into_iter();
             let mut bent = beside.filter_map(|p| Some((p, radii[p as usize]?)));

@@ -1,28 +1,28 @@
 //! Rigid motions of the plane.
 
-use crate::math::planar::Point2;
+use super::planar::Point2;
 
 /// A rigid motion in the plane: a rotation about the origin, then a translation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Motion {
+pub(crate) struct Motion {
     pub turn: Point2,
     pub shift: Point2,
 }
 
 impl Motion {
     /// The identity, which leaves every point of the plane where it is.
-    pub(super) const IDENTITY: Motion = Motion {
+    pub(crate) const IDENTITY: Motion = Motion {
         turn: Point2::new(1.0, 0.0),
         shift: Point2::new(0.0, 0.0),
     };
 
     /// Returns where the motion takes a point.
-    pub(super) fn apply(&self, place: Point2) -> Point2 {
+    pub(crate) fn apply(&self, place: Point2) -> Point2 {
         self.turn * place + self.shift
     }
 
     /// Composes two motions: this motion followed by another. Rounding does not add up to a change of size.
-    pub(super) fn then(&self, next: &Motion) -> Motion {
+    pub(crate) fn then(&self, next: &Motion) -> Motion {
         let turn = next.turn * self.turn;
         Motion {
             turn: turn / turn.norm(),
@@ -32,7 +32,7 @@ impl Motion {
 
     /// Computes the rigid motion that minimises the sum of squared distances from the moved points `from` to the points
     /// `to`.
-    pub(super) fn between(from: &[Point2], to: &[Point2]) -> Motion {
+    pub(crate) fn between(from: &[Point2], to: &[Point2]) -> Motion {
         let count = from.len() as f64;
         let middle = |places: &[Point2]| places.iter().sum::<Point2>() / count;
         let (here, there) = (middle(from), middle(to));

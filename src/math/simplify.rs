@@ -1,11 +1,10 @@
 //! Simplification of polylines with many points.
 
-use crate::math::planar::distance_to_segment;
-use crate::unroll::flat_triangle::Point;
+use super::planar::{Point2, distance_to_segment};
 
 /// Simplifies a polyline: removes points so that all of them stay within a tolerance of the new line (Douglas and
 /// Peucker 1973).
-pub(crate) fn simplify_polyline(points: &[Point], tolerance: f64) -> Vec<Point> {
+pub(crate) fn simplify_polyline(points: &[Point2], tolerance: f64) -> Vec<Point2> {
     if points.len() < 3 {
         return points.to_vec();
     }
@@ -44,8 +43,8 @@ mod tests {
 
     #[test]
     fn what_is_straight_has_two_ends_and_a_corner_stays() {
-        let at = Point::new;
-        let line: Vec<Point> = (0..10)
+        let at = Point2::new;
+        let line: Vec<Point2> = (0..10)
             .map(|i| at(f64::from(i), 0.001 * f64::from(i % 2)))
             .chain((1..10).map(|i| at(9.0, f64::from(i))))
             .collect();

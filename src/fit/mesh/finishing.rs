@@ -47,7 +47,7 @@ pub(super) fn untangle(
 ) -> Vec<u32> {
     for _ in 0..MAX_UNTANGLING_ROUNDS {
         separate_self_intersections(given, vertex_fans, x, creased);
-        if !turn_back(given, x) {
+        if !turn_back(given, vertex_fans, x) {
             break;
         }
     }

@@ -63,8 +63,8 @@ pub(crate) fn normals(topology: &Topology, x: &[Point], old: Option<&[Point]>) -
 }
 
 /// Returns the normal of a triangle, with twice the triangle's area as its length.
-pub(super) fn twice_area(x: &[Point], triangle: &[u32; 3]) -> Point {
-    let [a, b, c] = triangle.map(|i| x[i as usize]);
+pub(super) fn twice_area(x: &[Point], [a, b, c]: &[u32; 3]) -> Point {
+    let [a, b, c] = [&x[*a as usize], &x[*b as usize], &x[*c as usize]];
     (b - a).cross(&(c - a))
 }
 

@@ -2,6 +2,8 @@
 
 use super::geometry::{Point, faces_away, twice_area};
 use super::input::MeshInput;
+use super::topology::Topology;
+use super::vertex_fans::VertexFans;
 
 /// Maximum number of steps in which folded triangles are laid flat (`benches/whole.md`).
 const MAX_UNFOLDING_STEPS: usize = 40;
@@ -25,20 +27,36 @@ const TURNED_BACK_MARGIN: f64 = 1.1;
 /// Turns triangles back that face away from the surface around them, or stand steep on it, and returns whether there were
 /// any. Their corners move along the surface and within their reach; those that are held stay. Normals are at first those
 /// over two rings, so that few small triangles which are turned over together do not decide, then those over one. Costs
-/// `O(triangles)` for each round.
-pub(super) fn turn_back(given: &MeshInput, x: &mut [Point]) -> bool {
+/// `O(triangles)`, and in each round what has moved.
+pub(super) fn turn_back(given: &MeshInput, fans: &VertexFans, x: &mut [Point]) -> bool {
+    let topology = &given.topology;
     let mut found = false;
     for is_wide in [true, false] {
+        let mut normals = MeanNormals::new(topology, fans, x, is_wide);
+        let mut is_due = vec![true; topology.triangles.len()];
         for _ in 0..MAX_TURNING_ROUNDS {
-            let up = mean_normals(given, x, is_wide);
-            let mut any = false;
-            for triangle in &given.topology.triangles {
-                any |= raise(given, x, &up, triangle);
+            let mut moved = Vec::new();
+            for (triangle, corners) in topology.triangles.iter().enumerate() {
+                if !std::mem::take(&mut is_due[triangle]) {
+                    continue;
+                }
+                let before = corners.map(|corner| x[corner as usize]);
+                found |= raise(given, x, &normals.up, corners);
+                for (corner, before) in corners.iter().zip(before) {
+                    if x[*corner as usize] != before {
+                        moved.push(*corner);
+                        let own = fans.around(*corner as usize).iter();
+                        own.for_each(|other| is_due[*other as usize] = true);
+                    }
+                }
             }
-            if !any {
+            if moved.is_empty() {
                 break;
             }
-            found = true;
+            for vertex in normals.update(topology, fans, x, moved) {
+                let own = fans.around(vertex as usize).iter();
+                own.for_each(|other| is_due[*other as usize] = true);
+            }
         }
     }
     found
@@ -46,25 +64,52 @@ pub(super) fn turn_back(given: &MeshInput, x: &mut [Point]) -> bool {
 
 /// Mean unit normals of the triangles around each vertex, weighted by area, over one ring or two: their length is 1 on a
 /// plane and small on a sharp edge.
-pub(super) fn mean_normals(given: &MeshInput, x: &[Point], is_wide: bool) -> Vec<Point> {
-    let mut sums = vec![(Point::zeros(), 0.0); x.len()];
-    for triangle in &given.topology.triangles {
-        let area = twice_area(x, triangle);
-        for corner in triangle {
-            let (sum, size) = &mut sums[*corner as usize];
-            *sum += area;
-            *size += area.norm();
-        }
+pub(super) struct MeanNormals {
+    pub up: Vec<Point>,
+    is_wide: bool,
+    /// Sums of the normals, with twice the areas as lengths, and of these lengths, over the triangles around each vertex.
+    sums: Vec<(Point, f64)>,
+}
+
+impl MeanNormals {
+    pub(super) fn new(topology: &Topology, fans: &VertexFans, x: &[Point], is_wide: bool) -> Self {
+        let mut normals = MeanNormals {
+            up: vec![Point::zeros(); x.len()],
+            is_wide,
+            sums: vec![(Point::zeros(), 0.0); x.len()],
+        };
+        normals.update(topology, fans, x, (0..x.len() as u32).collect());
+        normals
     }
-    let mean = |vertex: usize| {
-        let ring = given.topology.around(vertex).iter().filter(|_| is_wide);
-        let (sum, size) = ring.fold(sums[vertex], |(sum, size), other| {
-            let (more, area) = sums[*other as usize];
-            (sum + more, size + area)
-        });
-        if size > 0.0 { sum / size } else { sum }
-    };
-    (0..x.len()).map(mean).collect()
+
+    /// Computes those anew that depend on vertices that have moved, and returns where they do.
+    fn update(
+        &mut self,
+        topology: &Topology,
+        fans: &VertexFans,
+        x: &[Point],
+        moved: Vec<u32>,
+    ) -> Vec<u32> {
+        let near = topology.within_rings(moved, 1);
+        for vertex in &near {
+            let own = fans.around(*vertex as usize).iter();
+            let sides = own.map(|t| twice_area(x, &topology.triangles[*t as usize]));
+            self.sums[*vertex as usize] = sides.fold((Point::zeros(), 0.0), |(sum, size), side| {
+                (sum + side, size + side.norm())
+            });
+        }
+        let stale = topology.within_rings(near, usize::from(self.is_wide));
+        for vertex in &stale {
+            let vertex = *vertex as usize;
+            let ring = topology.around(vertex).iter().filter(|_| self.is_wide);
+            let (sum, size) = ring.fold(self.sums[vertex], |(sum, size), other| {
+                let (more, area) = self.sums[*other as usize];
+                (sum + more, size + area)
+            });
+            self.up[vertex] = if size > 0.0 { sum / size } else { sum };
+        }
+        stale
+    }
 }
 
 /// Moves the corners of a triangle that is turned over, as seen along the normals `up`, until it has a small area seen

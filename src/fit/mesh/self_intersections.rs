@@ -6,7 +6,7 @@
 
 use super::geometry::{Point, twice_area};
 use super::input::MeshInput;
-use super::orientation::mean_normals;
+use super::orientation::MeanNormals;
 use super::topology::Topology;
 use super::vertex_fans::VertexFans;
 
@@ -41,7 +41,7 @@ pub(super) fn separate_self_intersections(
 ) {
     let topology = &given.topology;
     let mut bad = all_entangled(given, vertex_fans, x);
-    let mut up = mean_normals(given, x, true);
+    let mut up = MeanNormals::new(topology, vertex_fans, x, true).up;
     up.iter_mut()
         .for_each(|up| *up = up.try_normalize(0.0).unwrap_or_default());
     let mut left = MAX_VISITS_PER_VERTEX * topology.len() + EXTRA_VISITS;
@@ -142,21 +142,39 @@ fn entangled_triangles(
         let sum: Point = own.map(|t| twice_area(x, &triangles[*t as usize])).sum();
         sum.try_normalize(0.0).unwrap_or_default()
     };
-    for &triangle in &suspects {
+    // Number of the last suspect that each vertex, and each triangle, was met from.
+    let mut met = [topology.len(), triangles.len()].map(|count| vec![0u32; count]);
+    let [vertices_met, triangles_met] = &mut met;
+    for (number, &triangle) in (1..).zip(&suspects) {
         let corners = &triangles[triangle as usize];
         if twice_area(x, corners).dot(&corners.iter().map(up).sum()) < 0.0 {
             bad.push(triangle);
         }
-        let near = topology.within_rings(corners.to_vec(), CROSSING_SEARCH_RINGS - 1);
-        let mut others = Vec::new();
-        for vertex in near {
-            others.extend_from_slice(vertex_fans.around(vertex as usize));
+        let mut near = corners.to_vec();
+        for corner in corners {
+            vertices_met[*corner as usize] = number;
         }
-        others.sort_unstable();
-        others.dedup();
-        for other in others {
-            if cross(x, corners, &triangles[other as usize]) {
-                bad.extend([triangle, other]);
+        let bounds = bounds(x, corners);
+        let mut begin = 0;
+        for _ in 1..CROSSING_SEARCH_RINGS {
+            let end = near.len();
+            for place in begin..end {
+                for vertex in topology.around(near[place] as usize) {
+                    if std::mem::replace(&mut vertices_met[*vertex as usize], number) != number {
+                        near.push(*vertex);
+                    }
+                }
+            }
+            begin = end;
+        }
+        for other in near
+            .iter()
+            .flat_map(|vertex| vertex_fans.around(*vertex as usize))
+        {
+            let is_new = std::mem::replace(&mut triangles_met[*other as usize], number) != number;
+            let other_corners = &triangles[*other as usize];
+            if is_new && overlap(&bounds, x, other_corners) && cross(x, corners, other_corners) {
+                bad.extend([triangle, *other]);
             }
         }
     }
@@ -165,16 +183,21 @@ fn entangled_triangles(
     bad
 }
 
+/// Smallest and largest coordinates of a triangle's corners.
+fn bounds(x: &[Point], [a, b, c]: &[u32; 3]) -> [Point; 2] {
+    let [a, b, c] = [&x[*a as usize], &x[*b as usize], &x[*c as usize]];
+    [a.inf(b).inf(c), a.sup(b).sup(c)]
+}
+
+/// Returns whether the bounds of a triangle overlap others.
+fn overlap([low, high]: &[Point; 2], x: &[Point], triangle: &[u32; 3]) -> bool {
+    let [other_low, other_high] = bounds(x, triangle);
+    (0..3).all(|k| low[k] <= other_high[k] && other_low[k] <= high[k])
+}
+
 /// Returns whether an edge of one triangle passes through the other one, except edges with a corner of both.
 fn cross(x: &[Point], one: &[u32; 3], other: &[u32; 3]) -> bool {
     let [a, b] = [one, other].map(|t| t.map(|i| x[i as usize]));
-    let apart = |k: usize| {
-        let [a, b] = [&a, &b].map(|t| t.map(|p| p[k]));
-        a.iter().all(|p| b.iter().all(|q| p < q)) || a.iter().all(|p| b.iter().all(|q| p > q))
-    };
-    if (0..3).any(apart) {
-        return false;
-    }
     let through = |one: &[u32; 3], a: &[Point; 3], other: &[u32; 3], b: &[Point; 3]| {
         (0..3).any(|k| {
             let next = (k + 1) % 3;

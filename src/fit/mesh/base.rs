@@ -12,16 +12,16 @@ const BASE_PLACE_STEPS: usize = 3;
 /// along their normals; includes [`BASE_PLACE_STEPS`] (`benches/whole.md`).
 const BASE_SURFACE_STEPS: usize = 10;
 
-/// Smooths the input mesh, and returns the positions and frames of its vertices, about which the energy is first
+/// Smooths the input mesh, `repeats` times as much as usual, and returns the positions and frames of its vertices, about which the energy is first
 /// linearised. After the first steps vertices move along their normals alone, because the mean of its neighbours leads a
 /// vertex of irregular triangles along the surface as well. Vertices stay within their reach, a multiple of the noise.
-pub(super) fn first_base(given: &MeshInput) -> (Vec<Point>, Vec<Frame>) {
+pub(super) fn first_base(given: &MeshInput, repeats: usize) -> (Vec<Point>, Vec<Frame>) {
     let topology = &given.topology;
     let mut base = given.noisy.clone();
-    smooth(topology, &mut base, BASE_PLACE_STEPS);
+    smooth(topology, &mut base, repeats * BASE_PLACE_STEPS);
     given.keep_within_reach(&mut base);
     let mut rays = normals(topology, &base, None);
-    for _ in BASE_PLACE_STEPS..BASE_SURFACE_STEPS {
+    for _ in repeats * BASE_PLACE_STEPS..repeats * BASE_SURFACE_STEPS {
         let places = base.clone();
         smooth(topology, &mut base, 1);
         base = across(&base, &places, &rays);

@@ -5,13 +5,13 @@ use web_time::Instant;
 use super::base::first_base;
 use super::bounding_sphere::BoundingSphere;
 use super::finishing::{fair_creases, untangle};
-use super::geometry::{Frame, Point, areas, normals};
+use super::geometry::{Frame, Point, normals};
 use super::input::MeshInput;
 use super::known::MeshKnown;
 use super::level_vertices::LevelVertices;
 use super::levels::MeshLevels;
-use super::linearisation::{Linearisation, hexagonal_spacing};
-use super::noise_level::noise;
+use super::linearisation::Linearisation;
+use super::noise_level::{MeshNoise, mean_spacing};
 use super::options::MeshOptions;
 use super::orientation::unfold;
 use super::reach::reach;
@@ -139,12 +139,11 @@ impl MeshSolver {
         };
         let is_left = matches!(options.lambda, Lambda::Auto) && mesh.is_exact();
         // Without noise there is no reach, and without reach slivers spoil the base.
-        let (base, frames) = first_base(&given);
-        let sigma = match is_left {
-            true => Some(0.0),
-            false => noise(&given.topology, &base, &frames, &given.noisy),
-        };
-        let spacing = mean_spacing(&given.topology, &base);
+        let MeshNoise {
+            sigma,
+            spacing,
+            base_repeats,
+        } = MeshNoise::of(&given, is_left);
         let auto = sigma.map_or(Lambda::Medium.value(), |sigma| {
             LAMBDA_NOISE_PRODUCT / (sigma.max(MIN_NOISE_SPACINGS * spacing) * spacing)
         });
@@ -156,7 +155,7 @@ impl MeshSolver {
         // A smaller λ asks for more than the removal of noise.
         let relief = (auto / lambda).max(1.0);
         given.reach.iter_mut().for_each(|reach| *reach *= relief);
-        let (base, frames) = first_base(&given);
+        let (base, frames) = first_base(&given, base_repeats);
         let topology = &given.topology;
         let mut options = *options;
         if lambda > MAX_CREASE_LAMBDA_RATIO * auto {
@@ -411,17 +410,6 @@ impl MeshSolver {
             position: self.bounds.outward(sum / 3.0),
         }
     }
-}
-
-/// Computes the spacing of a hexagonal lattice whose vertices have the mean area of those inside, or of all if none is.
-fn mean_spacing(topology: &Topology, x: &[Point]) -> f64 {
-    let own = areas(topology, x);
-    let mut inside: Vec<usize> = topology.vertices_inside().collect();
-    if inside.is_empty() {
-        inside.extend(0..own.len());
-    }
-    let total: f64 = inside.iter().map(|vertex| own[*vertex]).sum();
-    hexagonal_spacing(total / inside.len() as f64)
 }
 
 /// Parameters of ADMM for the solve after a number of other ones.

@@ -643,6 +643,39 @@ fn a_bent_side_stays_bent_up_to_its_crease() {
     assert!(mean < 1e-3, "{mean}");
 }
 
+/// Noise of several spacings along the view, as of a scanner near by: triangles of such a mesh stand steep and face any way.
+#[test]
+fn noise_of_several_spacings_is_measured_and_removed() {
+    let height = |x: f64| 0.1 * (4.0 * x).sin();
+    let sheet = indexed(&grid(80, 80, |u, v| [u, v, height(u)]));
+    let (mut x, mut random, sigma) = (points(&sheet), random(4), 4.0 / 80.0);
+    x.iter_mut()
+        .for_each(|place| place.z += sigma * normal(&mut random));
+    let fit = fit_mesh(&with_positions(&sheet, &x), &MeshOptions::default()).unwrap();
+    let report = fit.report();
+    let found = report.sigma.unwrap() / sigma;
+    assert!((0.85..1.1).contains(&found), "{found}");
+    assert_eq!((report.flipped[1], report.entangled.len()), (0, 0));
+    let places = points(fit.mesh());
+    let squares = places
+        .iter()
+        .map(|place| (place.z - height(place.x)).powi(2));
+    let off = (squares.sum::<f64>() / places.len() as f64).sqrt();
+    assert!(off < 0.12 * sigma, "{off}");
+    let area = report.area[1] / whole_area(&sheet);
+    assert!((area - 1.0).abs() < 0.02, "{area}");
+}
+
+/// Sum of the areas of a mesh's triangles.
+fn whole_area(mesh: &Mesh) -> f64 {
+    let places = points(mesh);
+    let areas = mesh
+        .triangles()
+        .iter()
+        .map(|triangle| super::geometry::twice_area(&places, triangle).norm());
+    0.5 * areas.sum::<f64>()
+}
+
 /// Root mean square distance of vertices from a pipe's radius.
 fn off_pipe(mesh: &Mesh, radius: f64) -> f64 {
     let squares = points(mesh)

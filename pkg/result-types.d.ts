@@ -991,12 +991,13 @@ export interface OutlineEdges {
 /**
  * Reason why an outline is doubtful or was not found.
  * - `'cornerOutside'`: A corner is outside of the photo; its position is extrapolated from the edges.
+ * - `'cornerCovered'`: A corner is covered, folded over or torn off; its position is extrapolated from the edges.
  * - `'edgeOutside'`: Most of an edge is outside of the photo, or on its rim.
  * - `'faintEdge'`: Part of an edge has no contrast: something covers it, or page and background look alike.
  * - `'unlikelyShape'`: The outline's shape is unlike that of a sheet of paper.
  * - `'noPage'`: Nothing in the photo looks like a page on a background.
  */
-export type OutlineReason = 'cornerOutside' | 'edgeOutside' | 'faintEdge' | 'unlikelyShape' | 'noPage';
+export type OutlineReason = 'cornerOutside' | 'cornerCovered' | 'edgeOutside' | 'faintEdge' | 'unlikelyShape' | 'noPage';
 
 /**
  * Verdict of a search for the outline of a page.

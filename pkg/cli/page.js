@@ -100,6 +100,7 @@ function verdictWords(report) {
 /** @type {Record<import('../types.js').OutlineReason, string>} */
 const reasonWords = {
   cornerOutside: 'a corner is outside of the photo, and was extrapolated',
+  cornerCovered: 'a corner is covered, folded over or torn off, and was extrapolated',
   edgeOutside: "an edge is outside of the photo or on its rim, which is taken for the page's edge",
   faintEdge: 'part of an edge is covered, or looks like the ground',
   unlikelyShape: 'it has hardly the shape of a sheet of paper',

@@ -1,7 +1,7 @@
 //! Edges of a page that are known by their two ends, traced in the photo between them.
 
 use super::colour_model::ColourModel;
-use super::corners::{corner, end_at};
+use super::corners::{END_LENGTH_SHARE, end_at, meeting};
 use super::edge_path::EdgePath;
 use super::planes::Planes;
 use super::region::regions;
@@ -47,7 +47,7 @@ pub fn trace_edges(photo: &Photo<'_>, pages: &[Edges]) -> Vec<Edges> {
             if let (Some(one), Some(other)) = (&paths[before], &paths[k]) {
                 let mut one = one.clone();
                 one.reverse();
-                corners[k] = corner(&one, other)
+                corners[k] = meeting(&one, other, END_LENGTH_SHARE)
                     .filter(|found| distance(*found, corners[k]) <= end_tolerance(&views))
                     .unwrap_or(corners[k]);
             }

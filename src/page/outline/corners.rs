@@ -9,9 +9,10 @@ const WORN_END_SHARE: f64 = 0.015;
 
 /// Share of an edge's points from which its direction near a corner is fitted.
 /// Its row: `benches/page.md`, Constants of the outline.
-const END_LENGTH_SHARE: f64 = 0.08;
+pub(super) const END_LENGTH_SHARE: f64 = 0.08;
 
-/// Share of an edge from which its direction is fitted where the photo's rim cuts it off, and by which it may continue beyond a corner.
+/// Share of an edge from which its direction is fitted where the photo's rim cuts it off or its end is covered, and by which it may
+/// continue beyond a corner.
 /// Its row: `benches/page.md`, Constants of the outline.
 pub(super) const CUT_END_LENGTH_SHARE: f64 = 0.2;
 
@@ -37,12 +38,6 @@ fn end_line(edge: &[[f64; 2]], share: f64) -> Option<[[f64; 2]; 2]> {
     Some([mean, [mean[0] + cos, mean[1] + sin]])
 }
 
-/// Finds the corner where two edges meet; both are given as points that begin at that corner. `None` if the edges'
-/// extensions do not intersect near their ends.
-pub(super) fn corner(one: &[[f64; 2]], other: &[[f64; 2]]) -> Option<[f64; 2]> {
-    meeting(one, other, END_LENGTH_SHARE)
-}
-
 /// Extrapolates the corner outside of the image where two edges meet that the image's rim cuts off; both are given as
 /// points that begin at the rim. `None` if they meet inside of the image of size `size` (width, height), or farther outside than
 /// traced edges may be.
@@ -61,9 +56,9 @@ pub(super) fn is_outside(point: [f64; 2], size: [usize; 2], distance: f64) -> bo
     (0..2).any(|k| point[k] < -distance || point[k] > size[k] as f64 - 1.0 + distance)
 }
 
-/// Intersects two edges' extensions: straight lines fitted to the first share `end` of their points. None if the
-/// intersection is far from either edge's start.
-fn meeting(one: &[[f64; 2]], other: &[[f64; 2]], end: f64) -> Option<[f64; 2]> {
+/// Finds the corner where two edges' extensions meet: straight lines fitted to the first share `end` of their points, which begin
+/// at that corner. None if they meet far from either edge's start.
+pub(super) fn meeting(one: &[[f64; 2]], other: &[[f64; 2]], end: f64) -> Option<[f64; 2]> {
     let point = line_intersection(end_line(one, end)?, end_line(other, end)?, MIN_CORNER_SINE)?;
     let near =
         |edge: &[[f64; 2]]| distance(edge[0], point) <= MAX_CORNER_SHIFT * polyline_length(edge);

@@ -3,7 +3,7 @@
 //! The photo is reduced to 800 pixels and its print suppressed by a grey closing. Thresholds of lightness and colour,
 //! and histograms of page and ground, give masks; each of their regions has four corners, the largest quadrilateral of
 //! its convex hull. The regions most like a page get exact edges, each the path of most contrast in a band along the
-//! border (Viterbi), and corners where these edges meet. Where no region has a clear outline,
+//! border (Viterbi), and corners where these edges meet, or would where a corner is covered. Where no region has a clear outline,
 //! the page is searched around its print: in a frame that is turned like the lines of print each edge is a path that stands
 //! out from the texture around it (Viterbi again), smooth or not, whichever is seen better. What that gives is never more than doubtful.
 
@@ -11,6 +11,7 @@ mod candidates;
 mod colour_model;
 mod corner_edges;
 mod corners;
+mod covered;
 mod edge_path;
 mod morphology;
 mod orientation;

@@ -28,6 +28,8 @@ pub enum OutlineVerdict {
 pub enum OutlineReason {
     /// A corner is outside of the photo; its position is extrapolated from the edges.
     CornerOutside,
+    /// A corner is covered, folded over or torn off; its position is extrapolated from the edges.
+    CornerCovered,
     /// Most of an edge is outside of the photo, or on its rim.
     EdgeOutside,
     /// Part of an edge has no contrast: something covers it, or page and background look alike.

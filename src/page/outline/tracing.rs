@@ -1,6 +1,9 @@
 //! Outlines of candidate pages: their edges traced with subpixel accuracy, their corners, and their scores.
 
-use super::corners::{corner, end_at, is_convex, is_outside, outside_corner};
+use super::corners::{
+    CUT_END_LENGTH_SHARE, END_LENGTH_SHARE, end_at, is_convex, is_outside, meeting, outside_corner,
+};
+use super::covered::seen_points;
 use super::edge_path::EdgePath;
 use super::morphology::closed;
 use super::outline_report::{OutlineReason, PageOutline};
@@ -97,17 +100,35 @@ pub(super) fn traced(
     for arc in &arcs {
         paths.push(EdgePath::new(&views.raw, &views.clean, arc)?);
     }
+    let support = (paths.iter())
+        .filter(|path| path.visible >= MIN_VISIBLE_SHARE)
+        .map(|path| path.support)
+        .fold(1.0, f64::min);
     let mut edges: Vec<Vec<[f64; 2]>> = paths.iter().map(|path| path.points.clone()).collect();
+    let ends = [0, 1, 2, 3].map(|k| edges[k][0]);
+    let diagonal = distance(ends[0], ends[2]).max(distance(ends[1], ends[3]));
+    let seen = match support < MIN_EDGE_SUPPORT {
+        // Kinks of an edge that is hardly seen are none of the paper's.
+        true => edges.iter().map(|edge| vec![true; edge.len()]).collect(),
+        false => seen_points(&edges, diagonal),
+    };
+    for (edge, seen) in edges.iter_mut().zip(&seen) {
+        let mut is_seen = seen.iter();
+        edge.retain(|_| is_seen.next() == Some(&true));
+    }
     let mut corners = [[0.0; 2]; 4];
-    let mut is_corner_outside = false;
+    let (mut is_corner_outside, mut is_corner_covered) = (false, false);
     for k in 0..4 {
         let before = (k + 3) % 4;
         let [mut one, mut other] = [edges[before].clone(), edges[k].clone()];
         one.reverse();
         let (a, b) = (one[0], other[0]);
+        let is_covered = !(seen[before].ends_with(&[true]) && seen[k].starts_with(&[true]));
+        is_corner_covered |= is_covered;
         let exact = match cut[k] {
             Some(_) => outside_corner(&one, &other, size).or(cut[k]),
-            None => corner(&one, &other),
+            None if is_covered => meeting(&one, &other, CUT_END_LENGTH_SHARE),
+            None => meeting(&one, &other, END_LENGTH_SHARE),
         };
         corners[k] = exact.unwrap_or_else(|| [0, 1].map(|j| 0.5 * (a[j] + b[j])));
         end_at(&mut one, corners[k]);
@@ -126,6 +147,9 @@ pub(super) fn traced(
     if is_corner_outside {
         reasons.push(OutlineReason::CornerOutside);
     }
+    if is_corner_covered {
+        reasons.push(OutlineReason::CornerCovered);
+    }
     let visible_edges = (paths.iter())
         .filter(|path| path.visible >= MIN_VISIBLE_SHARE)
         .count();
@@ -138,10 +162,6 @@ pub(super) fn traced(
     if !is_convex(&corners) {
         reasons.push(OutlineReason::UnlikelyShape);
     }
-    let support = (paths.iter())
-        .filter(|path| path.visible >= MIN_VISIBLE_SHARE)
-        .map(|path| path.support)
-        .fold(1.0, f64::min);
     if support < MIN_EDGE_SUPPORT {
         reasons.push(OutlineReason::FaintEdge);
     }

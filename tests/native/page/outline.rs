@@ -274,6 +274,47 @@ fn a_finger_at_an_edge_moves_no_corner() {
     assert!(error < 4.0, "{error}");
 }
 
+/// Cups that lie over a corner, of the paper's colour and darker than the ground, and a corner that is folded over.
+#[test]
+fn a_covered_corner_is_said_and_lies_where_its_edges_would_meet() {
+    let page = pages(&[PAGE], letter, wood);
+    let cup = |colour: Colour, centre: [f64; 2]| {
+        let page = &page;
+        move |[x, y]: [f64; 2]| match (x - centre[0]).hypot(y - centre[1]) {
+            away if away > 70.0 => page([x, y]),
+            away if away > 60.0 => colour,
+            _ => colour.map(|value| 0.85 * value),
+        }
+    };
+    let folded = |[x, y]: [f64; 2]| {
+        // The fold runs from 110 pixels before the upper right corner to as far below it.
+        let beyond = (x - 770.0) - (y - 152.0);
+        let is_over = beyond < 0.0 && x > 765.0 && y < 270.0 && beyond > -110.0;
+        match beyond {
+            beyond if beyond > 0.0 => wood([x, y]),
+            _ if is_over => [190.0; 3],
+            _ => page([x, y]),
+        }
+    };
+    for (name, rgba) in [
+        ("white cup", photo(cup([240.0; 3], [950.0, 870.0]), even)),
+        (
+            "dark cup",
+            photo(cup([40.0, 30.0, 28.0], [318.0, 140.0]), even),
+        ),
+        ("folded over", photo(folded, even)),
+    ] {
+        let report = found(&rgba);
+        assert_eq!(report.verdict, OutlineVerdict::Doubtful, "{name}");
+        assert_eq!(report.reasons, [OutlineReason::CornerCovered], "{name}");
+        let (corner, edge) = (
+            corner_error(&report.pages[0], &PAGE),
+            edge_error(&report.pages[0], &PAGE),
+        );
+        assert!(corner < 5.0 && edge < 1.0, "{name}: {corner:.2}, {edge:.2}");
+    }
+}
+
 #[test]
 fn a_corner_outside_of_the_photo_is_said_and_extrapolated() {
     let cut = [

@@ -236,6 +236,11 @@ export const dewarpPage = {
    * straight. Default: true.
    */
   traceEdges: { kind: flag },
+  /**
+   * Whether the outline that the edges are from is `doubtful`, as `findPage` says: then the page is no surer. Default: as the outline is
+   * that is found where no edges are given.
+   */
+  doubtfulOutline: { kind: flag },
   ...flattenPhoto,
 };
 

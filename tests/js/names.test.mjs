@@ -27,7 +27,7 @@ test('a flag has the name of its option, in lower case with hyphens', () => {
     unroll: ['onProgress'],
     pattern: ['refold', 'onProgress'],
     dewarp: ['transfer', 'grid', 'extent', 'camera'],
-    dewarpPage: ['film35', 'ruler', 'centre', 'findLines', 'traceEdges', 'grid', 'transfer', 'onProgress'],
+    dewarpPage: ['film35', 'ruler', 'centre', 'findLines', 'traceEdges', 'doubtfulOutline', 'grid', 'transfer', 'onProgress'],
   };
   for (const [call, without] of Object.entries(own)) {
     const options = Object.keys(OPTIONS[/** @type {keyof typeof OPTIONS} */ (call)]);

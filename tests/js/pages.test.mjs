@@ -222,6 +222,10 @@ test('lines of text are found where the photo shows print', async () => {
   }
   assert.equal(direct.dewarpPage(page, { ...edges, lines: [] }, { ...known, findLines: true }).report.linesFound, linesFound);
   assert.equal(direct.dewarpPage(photo, edges, known).report.linesFound, 0, 'no print');
+  // Whose edges are a doubtful outline's, the page is no surer than that.
+  const doubtful = direct.dewarpPage(page, edges, { ...known, doubtfulOutline: true });
+  assert.deepEqual([doubtful.verdict, doubtful.report.doubt], ['doubtful', 'outline']);
+  assert.ok(doubtful.report.errorBound > flat.report.errorBound);
   assert.throws(() => direct.dewarpPage(page, edges, /** @type {any} */ ({ findLines: 'yes' })), error('OPTION', /findLines/));
 });
 

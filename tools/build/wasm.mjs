@@ -23,7 +23,7 @@ import { run } from '../util/process.mjs';
  * have to send, gzipped.
  */
 const files = [
-  { name: 'solver', limit: 272_000 },
+  { name: 'solver', limit: 273_000 },
   { name: 'files', limit: 292_000 },
   { name: 'images', limit: 591_000 },
   { name: 'meshes', limit: 345_000 },

@@ -82,7 +82,7 @@ export class Book {
         const { file, state } = entry;
         const photo = await openPhoto(api, file, signal);
         const [quarters, traces] = [state?.quarters ?? 0, state?.traces ?? detectedTraces(photo)];
-        const request = { photo, traces, options: session.options, moving: false };
+        const request = { photo, traces, options: session.options, isDetected: !state?.movedCorners.size, moving: false };
         const flat = await runInWorker(api, signal, async (own) => flattenWholePhoto(own, request, await flattenReducedPhoto(own, request)));
         pages.push(...await pictureFiles(worker, flat, traces[0].length, quarters, paper, { ink: session.options.ink, text }));
       } catch (error) {

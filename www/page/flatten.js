@@ -8,6 +8,7 @@
  * @property {PagePhoto} photo
  * @property {Traces} traces
  * @property {Options} options
+ * @property {boolean} isDetected whether the edges are those of the detected outline, with no corner that was moved by hand
  * @property {boolean} moving whether something is being dragged: then neither edges nor lines of text are searched, which would take longer
  */
 
@@ -17,9 +18,14 @@
  * @param {FlattenRequest} request
  * @param {(fraction: number) => void} [onProgress]
  */
-export function flattenReducedPhoto(worker, { photo: { reduced, scale, film35 }, traces, options, moving }, onProgress = () => {}) {
+export function flattenReducedPhoto(worker, { photo: { reduced, scale, film35, outlines }, traces, options, moving, isDetected }, onProgress = () => {}) {
   const { width, height, data } = reduced;
-  return worker.dewarpPage({ width, height, data, film35 }, toPageEdges(traces, scale), { ...options, ...(moving && { findLines: false, traceEdges: false }), onProgress: ({ fraction }) => onProgress(fraction) });
+  return worker.dewarpPage({ width, height, data, film35 }, toPageEdges(traces, scale), {
+    ...options,
+    ...(moving && { findLines: false, traceEdges: false }),
+    doubtfulOutline: isDetected && outlines.verdict === 'doubtful',
+    onProgress: ({ fraction }) => onProgress(fraction),
+  });
 }
 
 /**

@@ -239,8 +239,8 @@ export class PageSession extends Events {
 
   /** The request to flatten the photo; null without a photo. @param {boolean} [moving] whether something is being dragged @returns {FlattenRequest | null} */
   request(moving = false) {
-    const { photo, options } = this;
-    return photo && { photo, traces: this.#outlineTraces(), options, moving };
+    const { photo, options, movedCorners } = this;
+    return photo && { photo, traces: this.#outlineTraces(), options, isDetected: movedCorners.size === 0, moving };
   }
 
   /** Shows a flat page and its detected lines of text. @param {DewarpedPage} flat @param {FlattenRequest} request */

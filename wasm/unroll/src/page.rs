@@ -94,6 +94,7 @@ struct KnownPage {
     centre: Option<[f64; 2]>,
     find_lines: Option<bool>,
     trace_edges: Option<bool>,
+    doubtful_outline: bool,
 }
 
 impl KnownPage {
@@ -333,14 +334,14 @@ pub fn page_surface(photo: JsValue, edges: JsValue, options: JsValue) -> Result<
     let pixels = Pixels::new(photo)?;
     let photo = pixels.photo()?;
     let (mut pages, mut lines, mut find) = (Vec::new(), Vec::new(), true);
-    let mut is_doubtful = false;
+    let mut is_doubtful = input.doubtful_outline;
     let outline = if edges.is_undefined() {
         let found = progress::part(0.3, || find_outline(&photo));
         if let Ok(page) = found.page() {
             pages.push(page.to_edges());
             lines.push(Vec::new());
         }
-        is_doubtful = found.verdict == OutlineVerdict::Doubtful;
+        is_doubtful |= found.verdict == OutlineVerdict::Doubtful;
         Some(OutlinesOutput::from(&found))
     } else {
         let edges: Vec<EdgesInput> = from_value(edges)?;
@@ -352,7 +353,7 @@ pub fn page_surface(photo: JsValue, edges: JsValue, options: JsValue) -> Result<
         }
         if input.trace_edges.unwrap_or(true) {
             pages = progress::part(0.1, || trace_edges(&photo, &pages));
-            is_doubtful = pages
+            is_doubtful |= pages
                 .iter()
                 .flat_map(Edges::traces)
                 .any(Trace::has_ends_alone);

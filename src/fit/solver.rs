@@ -107,7 +107,9 @@ impl Solver {
                 iterations,
                 ..found
             });
-            levelling = Levelling::new(&prepared.input, &asked, statistics)?;
+            if found.reason == LambdaReason::Noise {
+                levelling = Levelling::new(&prepared.input, &asked, &first, statistics)?;
+            }
             if let Some(aim) = aim.filter(|_| levelling.is_none()) {
                 // λ is refined again where the coarse lattice was too coarse for the shape.
                 refinement = Some(Refinement::new(aim, 1.0));

@@ -12,9 +12,9 @@ const BASE_PLACE_STEPS: usize = 3;
 /// along their normals; includes [`BASE_PLACE_STEPS`] (`benches/whole.md`).
 const BASE_SURFACE_STEPS: usize = 10;
 
-/// Smooths the input mesh, `repeats` times as much as usual, and returns the positions and frames of its vertices, about which the energy is first
-/// linearised. After the first steps vertices move along their normals alone, because the mean of its neighbours leads a
-/// vertex of irregular triangles along the surface as well. Vertices stay within their reach, a multiple of the noise.
+/// Smooths the input mesh, `repeats` times as much as usual, and returns the positions and frames of its vertices, about which the
+/// energy is first linearised. After the first steps vertices move along their normals alone, because the mean of its neighbours
+/// leads a vertex of irregular triangles along the surface as well. Vertices stay within their reach, a multiple of the noise.
 pub(super) fn first_base(given: &MeshInput, repeats: usize) -> (Vec<Point>, Vec<Frame>) {
     let topology = &given.topology;
     let mut base = given.noisy.clone();

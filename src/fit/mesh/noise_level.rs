@@ -43,10 +43,12 @@ impl MeshNoise {
             let spacing = mean_spacing(&given.topology, &base);
             let by = |places| noise(&given.topology, &base, &frames, &given.noisy, places);
             // Smoothing moves irregular vertices along the surface, which counts where the noise is small.
-            let sigma = match by(&given.noisy) {
-                _ if is_exact => Some(0.0),
-                Some(sigma) if sigma > MAX_PLACE_NOISE_SPACINGS * spacing => by(&base),
-                sigma => sigma,
+            let sigma = match is_exact {
+                true => Some(0.0),
+                false => match by(&given.noisy) {
+                    Some(sigma) if sigma > MAX_PLACE_NOISE_SPACINGS * spacing => by(&base),
+                    sigma => sigma,
+                },
             };
             let is_smooth = sigma.is_none_or(|sigma| sigma <= base_repeats as f64 * spacing);
             if is_smooth || base_repeats >= MAX_BASE_REPEATS {

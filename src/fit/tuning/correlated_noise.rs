@@ -123,19 +123,19 @@ struct Covariance {
 }
 
 /// White noise that scales show for each correlation length that is tried, if the noise has that length.
-struct Trials {
+struct Trials<'a> {
+    scales: &'a [CurvatureScale],
+    discs: &'a [Disc],
     /// Correlation lengths in spacings, and the largest of them that is told from longer ones.
     lengths: Vec<f64>,
     longest: f64,
     /// For each length and each scale, the logarithm of the standard deviation of the noise.
     logs: Vec<Vec<f64>>,
-    /// For each length, the response of the largest discs.
-    shared_roots: Vec<f64>,
 }
 
-impl Trials {
+impl<'a> Trials<'a> {
     /// Makes the trials over a grid of correlation lengths, up to those that the largest discs show.
-    fn new(scales: &[CurvatureScale], discs: &[Disc]) -> Self {
+    fn new(scales: &'a [CurvatureScale], discs: &'a [Disc]) -> Self {
         let largest = scales.last().map_or(0.0, CurvatureScale::radius);
         let [shortest, longest] = [MIN_LENGTH_RADII, MAX_LENGTH_RADII].map(|radii| radii * largest);
         let step = (longest / shortest).powf(1.0 / f64::from(LENGTH_TRIALS - 1));
@@ -148,14 +148,8 @@ impl Trials {
             logs: (lengths.iter())
                 .map(|length| scales.iter().map(|scale| log(scale, *length)).collect())
                 .collect(),
-            // No more of the noise is taken for granted than the largest discs show.
-            shared_roots: (lengths.iter())
-                .map(|length| {
-                    scales
-                        .last()
-                        .map_or(1.0, |scale| response(scale, discs, *length))
-                })
-                .collect(),
+            scales,
+            discs,
             lengths,
             longest: longest / step.sqrt(),
         }
@@ -174,11 +168,15 @@ impl Trials {
             }
         }
         let (misfit, trial, sigma) = best;
+        let length = self.lengths[trial];
+        // No more of the noise is taken for granted than the largest discs show.
+        let shared_root =
+            (self.scales.last()).map_or(1.0, |scale| response(scale, self.discs, length));
         Covariance {
             sigma,
-            length: self.lengths[trial],
-            is_smoothest: self.lengths[trial] > self.longest,
-            shared_root: self.shared_roots[trial],
+            length,
+            is_smoothest: length > self.longest,
+            shared_root,
             misfit,
         }
     }

@@ -5,7 +5,7 @@
 //! of low energy follows it less than it follows shapes, and leaves some of it behind, each time that it is solved for. As this
 //! rest changes slowly from line to line, a coarse lattice shows it.
 
-use super::closed_form::{InputStatistics, initial_options};
+use super::closed_form::InputStatistics;
 use super::merge::merge;
 use super::residual::residuals;
 use super::search::{interior_len, trial, trial_options};
@@ -13,7 +13,6 @@ use crate::error::Result;
 use crate::fit::component_solver::{ComponentSolver, Status};
 use crate::fit::input::Input;
 use crate::fit::options::{HuberOptions, Options};
-use crate::fit::report::LambdaReason;
 use crate::heights::heightfield::Heightfield;
 use crate::math::statistics::median;
 
@@ -38,26 +37,25 @@ pub(crate) struct Levelling {
 }
 
 impl Levelling {
-    /// Starts the levelling of an input for a solve with the options that were `asked` for; `None` where it has no offsets beside noise,
-    /// or too few vertices.
+    /// Starts the levelling of a noisy input for a solve with the options that were `asked` for, by coarse solves from the `first`
+    /// options on; `None` where no lines are offset, or are levelled already, or there are too few vertices.
     ///
     /// # Errors
     /// Out of memory, and errors of the solver.
     pub(crate) fn new(
         input: &Input,
         asked: &Options,
+        first: &Options,
         statistics: InputStatistics,
     ) -> Result<Option<Self>> {
-        let (options, choice, _) = initial_options(asked, statistics);
-        let has_offsets = input.offset_lines() != [false; 2] && !input.is_levelled;
-        if choice.reason != LambdaReason::Noise || !has_offsets {
+        if input.offset_lines() == [false; 2] || input.is_levelled {
             return Ok(None);
         }
         let coarse = merge(input)?;
         if interior_len(&coarse) == 0 {
             return Ok(None);
         }
-        let options = trial_options(&options, HuberOptions::ANY);
+        let options = trial_options(first, HuberOptions::ANY);
         let solve = trial(&coarse, &options, statistics, None)?;
         Ok(Some(Levelling {
             asked: *asked,

@@ -6,8 +6,9 @@
 //! and `(2λw + κCᵀC) q = −(2λw(z − z̃) + CᵀY)`, which is one more z-step, `Y + κCq` and `z + q` satisfy the
 //! condition exactly. The new dual is then scaled back into the dual ball.
 
-use super::certificate::dual_bound;
-use super::iterate::{Iterate, MatrixBand};
+use super::certificate::{dual_bound, total};
+use super::iterate::Iterate;
+use super::matrix_field::MatrixBand;
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
 use crate::fit::energy::spectral_penalty::SpectralPenalty;
@@ -55,14 +56,13 @@ pub(super) fn balanced_bound<O: SolvableOperator>(
 
 /// The part of one band in balancing: arrays that it reads and writes, and its sums.
 struct Balance<'a> {
-    v: MatrixBand<'a>,
+    v: MatrixBand<'a, f64>,
     /// Residual of the optimality condition.
     residual: BandSlice<'a, f64>,
     /// Largest size of a dual matrix.
     excess: f64,
-    conjugate: f64,
-    inner: f64,
-    quadratic: f64,
+    /// Sums of the conjugates, of `⟨CᵀY, z̃⟩`, and of `(CᵀY)²` over the weights.
+    sums: [f64; 3],
 }
 
 impl<O: SolvableOperator> Iterate<O> {
@@ -101,9 +101,7 @@ impl<O: SolvableOperator> Iterate<O> {
                 v,
                 residual,
                 excess: 0.0,
-                conjugate: 0.0,
-                inner: 0.0,
-                quadratic: 0.0,
+                sums: [0.0; 3],
             })
             .collect();
         problem.operator.sweep(
@@ -118,7 +116,7 @@ impl<O: SolvableOperator> Iterate<O> {
                     let y = penalty.dual(v.get(i), *weight) + change;
                     matrices.set(i, y.coordinates());
                     state.excess = state.excess.max(penalty.size(y, *weight));
-                    state.conjugate +=
+                    state.sums[0] +=
                         problem.operator.area(run.start + i) * penalty.conjugate(y, *weight);
                 }
             },
@@ -131,17 +129,15 @@ impl<O: SolvableOperator> Iterate<O> {
                     let offset = z[vertex] + q[vertex] - problem.target[vertex];
                     let gradient = fidelity * (weight[i] * offset) + adjoint;
                     residual[i] = -gradient;
-                    state.inner += adjoint * problem.target[vertex];
-                    state.quadratic += adjoint * adjoint * inverse[i];
+                    state.sums[1] += adjoint * problem.target[vertex];
+                    state.sums[2] += adjoint * adjoint * inverse[i];
                 }
             },
         );
         let excess = states
             .iter()
             .fold(0.0f64, |most, band| most.max(band.excess));
-        let sum = |term: fn(&Balance) -> f64| states.iter().map(term).sum::<f64>();
-        let (inner, quadratic) = (sum(|band| band.inner), sum(|band| band.quadratic));
-        let conjugate = sum(|band| band.conjugate);
+        let [conjugate, inner, quadratic] = total(states.iter().map(|band| band.sums));
         let largest = if excess > 0.0 {
             penalty.largest() / excess
         } else {

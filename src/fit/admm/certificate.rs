@@ -1,6 +1,7 @@
 //! The certificate of ADMM's iterate: objective, dual bound and residuals.
 
-use super::iterate::{CERTIFICATE_SUMS, Iterate, MatrixBand, SumTerms};
+use super::iterate::{CERTIFICATE_SUMS, Iterate, SumTerms};
+use super::matrix_field::MatrixBand;
 use crate::fit::energy::problem::Problem;
 use crate::fit::energy::spectral_penalty::{NuclearNorm, PenaltyKind, SpectralPenalty};
 use crate::fit::linear::z_step_solver::SolvableOperator;
@@ -22,15 +23,15 @@ fn add_sums<const N: usize>(sums: &mut [f64; CERTIFICATE_SUMS], terms: [&mut [f6
 }
 
 /// Adds the sums of all bands.
-fn total(bands: impl Iterator<Item = [f64; CERTIFICATE_SUMS]>) -> [f64; CERTIFICATE_SUMS] {
-    bands.fold([0.0; CERTIFICATE_SUMS], |sums, band| {
+pub(super) fn total<const N: usize>(bands: impl Iterator<Item = [f64; N]>) -> [f64; N] {
+    bands.fold([0.0; N], |sums, band| {
         std::array::from_fn(|k| sums[k] + band[k])
     })
 }
 
 /// The part of an iterate in one band, and what the certificate sums up there.
 struct BandSums<'a> {
-    v: MatrixBand<'a>,
+    v: MatrixBand<'a, f64>,
     stencil_terms: &'a mut SumTerms,
     vertex_terms: &'a mut SumTerms,
     over_stencils: [f64; CERTIFICATE_SUMS],

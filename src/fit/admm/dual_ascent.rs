@@ -10,19 +10,19 @@
 //! The steps run in single precision, heights in units of `1/2λh²`, in which `τC` has no units; the bound is
 //! evaluated in double precision.
 
-use super::certificate::dual_bound;
+use super::certificate::{dual_bound, total};
 use super::iterate::{Iterate, SumTerms};
+use super::matrix_field::{MatrixBand, MatrixField, MatrixRun};
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
 use crate::fit::energy::spectral_penalty::{HuberStep, NuclearNorm, PenaltyKind, SpectralPenalty};
 use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::operator::{Hessians as _, Matrices as _, Sums as _};
-use crate::lattice::bands::{BandSlice, Bands};
 use crate::lattice::per_cell::PerCell;
 use crate::lattice::runs::Run;
 use crate::math::fork;
 use crate::math::lanes::{self, narrow, widen};
-use crate::math::sym2::{Sym2, clamp};
+use crate::math::sym2::clamp;
 
 /// Number of gradient steps of a dual ascent from one evaluation of the dual bound to the next; each step costs a third
 /// to a fourth of an ADMM iteration (`benches/choices.md`, One constant at a time).
@@ -59,9 +59,9 @@ struct AscentProgress {
 pub(super) struct DualAscent<O: SolvableOperator> {
     progress: AscentProgress,
     /// Dual `Y` after the last step.
-    last: Matrices<f32>,
+    last: MatrixField<f32>,
     /// Dual `Y` extrapolated by the momentum, from which the next step starts.
-    ahead: Matrices<f32>,
+    ahead: MatrixField<f32>,
     /// Heights `z_Y = z̃ − CᵀY/2λ` for `Y = 0`.
     base: Vec<f32>,
     /// Heights `z_Y = z̃ − CᵀY/2λ` of the extrapolated dual.
@@ -72,7 +72,7 @@ pub(super) struct DualAscent<O: SolvableOperator> {
     weight: PerCell<f32>,
     scratch: O::Scratch<f32>,
     /// Buffer of each band for the matrices of one run of stencils, in double precision.
-    rows: Vec<Matrices<f64>>,
+    rows: Vec<[Vec<f64>; 3]>,
 }
 
 /// Proximal map of the penalty's convex conjugate, which follows each gradient step of the dual.
@@ -100,29 +100,6 @@ impl Proximal for HuberStep<f32> {
     }
 }
 
-/// Symmetric matrices at the stencils, one array for each coordinate of [`Sym2`].
-type Matrices<T> = [Vec<T>; 3];
-
-/// The part of an array of matrices that belongs to one band, by coordinate.
-type MatrixBand<'a, T> = [BandSlice<'a, T>; 3];
-
-/// Splits matrices into the parts of their bands.
-fn split<'a, T>(
-    bands: &'a Bands,
-    matrices: &'a mut Matrices<T>,
-) -> impl Iterator<Item = MatrixBand<'a, T>> {
-    let [mean, diff, off] = matrices;
-    let rest = bands.split(diff).zip(bands.split(off));
-    let all = bands.split(mean).zip(rest);
-    all.map(|(mean, (diff, off))| [mean, diff, off])
-}
-
-/// Returns the matrices of one run of stencils, by coordinate.
-#[inline(always)]
-fn run_of<'a, T>(matrices: &'a mut MatrixBand<'_, T>, run: Run) -> [&'a mut [T]; 3] {
-    matrices.each_mut().map(|values| values.run_mut(run))
-}
-
 impl<O: SolvableOperator> DualAscent<O> {
     /// Allocates the buffers for dual ascents on a problem.
     ///
@@ -131,10 +108,7 @@ impl<O: SolvableOperator> DualAscent<O> {
     pub(super) fn new(problem: &Problem<O>) -> Result<Self> {
         let operator = &problem.operator;
         let zeros = |cells| try_filled("bound", cells, 0.0);
-        let matrices = || {
-            let zeros = || zeros(operator.stencil_cells());
-            Ok([zeros()?, zeros()?, zeros()?])
-        };
+        let matrices = || MatrixField::new(operator.stencil_cells());
         let row = || std::array::from_fn(|_| vec![0.0; operator.longest_run()]);
         let mut mobility = PerCell::same(operator.longest_run(), 1.0);
         if !problem.constrained.is_empty() {
@@ -235,20 +209,19 @@ impl<O: SolvableOperator> DualAscent<O> {
                 narrow(base, to.run_mut(*run));
             }
         });
-        let to = split(bands, &mut self.last).zip(split(bands, &mut self.ahead));
+        let to = self.last.split(bands).zip(self.ahead.split(bands));
         let from = iterate.v.split(bands).zip(&mut self.rows);
         let mut states: Vec<_> = from.zip(to).collect();
         fork::for_each(&mut states, |band, ((v, row), (last, ahead))| {
             for run in bands.runs(operator.stencils(), band) {
                 let v = v.run(*run);
                 let weight = problem.weight.run(*run);
-                let [mean, diff, off] = row_of(row, weight.len());
-                for i in 0..weight.len() {
-                    let dual = penalty.dual(v.get(i), weight[i]);
-                    (mean[i], diff[i], off[i]) = dual.coordinates().into();
+                let mut wide = MatrixRun(row_of(row, weight.len()));
+                for (i, weight) in weight.iter().enumerate() {
+                    wide.set(i, penalty.dual(v.get(i), *weight));
                 }
                 for to in [&mut *last, &mut *ahead] {
-                    for (from, to) in [&*mean, diff, off].into_iter().zip(run_of(to, *run)) {
+                    for (from, to) in wide.0.iter().zip(to.run(*run).0) {
                         narrow(from, to);
                     }
                 }
@@ -271,13 +244,13 @@ impl<O: SolvableOperator> DualAscent<O> {
         } = self;
         let share = 1.0 / operator.norm();
         let bands = operator.bands();
-        let mut states: Vec<_> = split(bands, last).zip(split(bands, ahead)).collect();
+        let mut states: Vec<_> = last.split(bands).zip(ahead.split(bands)).collect();
         operator.sweep_back(
             scratch,
             heights,
             &mut states,
             |(_, ahead), run, mut matrices| {
-                let [mean, diff, off] = run_of(ahead, run);
+                let [mean, diff, off] = ahead.run(run).0;
                 for i in 0..mean.len() {
                     matrices.set(i, [mean[i], diff[i], off[i]]);
                 }
@@ -291,7 +264,7 @@ impl<O: SolvableOperator> DualAscent<O> {
             },
             |(last, ahead), run, hessians| {
                 let weight = weight.run(run);
-                let ([l1, l2, l3], [a1, a2, a3]) = (run_of(last, run), run_of(ahead, run));
+                let ([l1, l2, l3], [a1, a2, a3]) = (last.run(run).0, ahead.run(run).0);
                 for i in 0..weight.len() {
                     let [g1, g2, g3] = hessians.at(i);
                     let up = |from: f32, gradient: f32| from + gradient * share;
@@ -313,7 +286,8 @@ impl<O: SolvableOperator> DualAscent<O> {
         let Iterate {
             z, scratch, terms, ..
         } = iterate;
-        let mut states: Vec<_> = split(problem.operator.bands(), last)
+        let bands = problem.operator.bands();
+        let mut states: Vec<_> = (last.split(bands))
             .zip(rows)
             .zip(terms)
             .map(|((last, wide), terms)| BoundSums {
@@ -333,15 +307,14 @@ impl<O: SolvableOperator> DualAscent<O> {
                 let [[conjugates, ..], _] = &mut *state.terms;
                 let weight = problem.weight.run(run);
                 let n = weight.len();
-                let mut wide = row_of(state.wide, n);
-                for (from, to) in run_of(&mut state.last, run).into_iter().zip(&mut wide) {
+                let mut wide = MatrixRun(row_of(state.wide, n));
+                let single = state.last.run(run);
+                for (from, to) in single.0.into_iter().zip(wide.0.iter_mut()) {
                     widen(from, to);
                 }
-                let [mean, diff, off] = wide;
                 for i in 0..n {
-                    let (mean, diff, off) = (mean[i], diff[i], off[i]);
                     // Rounding to single precision may have left the dual just infeasible.
-                    let dual = NuclearNorm.dual(Sym2 { mean, diff, off }, weight[i]);
+                    let dual = NuclearNorm.dual(wide.get(i), weight[i]);
                     matrices.set(i, dual.coordinates());
                     if costs {
                         let area = problem.operator.area(run.start + i);
@@ -367,9 +340,7 @@ impl<O: SolvableOperator> DualAscent<O> {
                 state.sums[2] += lanes::sum(quadratics);
             },
         );
-        let [conjugate, inner, quadratic] = states.iter().fold([0.0; 3], |total, state| {
-            std::array::from_fn(|k| total[k] + state.sums[k])
-        });
+        let [conjugate, inner, quadratic] = total(states.iter().map(|state| state.sums));
         dual_bound(problem, inner, quadratic, conjugate, 1.0)
     }
 }
@@ -377,7 +348,7 @@ impl<O: SolvableOperator> DualAscent<O> {
 /// The part of one band in an evaluation of the dual bound: arrays that it reads, and its sums.
 struct BoundSums<'a> {
     last: MatrixBand<'a, f32>,
-    wide: &'a mut Matrices<f64>,
+    wide: &'a mut [Vec<f64>; 3],
     terms: &'a mut [SumTerms; 2],
     /// Sums of the conjugates, of `⟨CᵀY, z̃⟩`, and of `(CᵀY)²` over the weights.
     sums: [f64; 3],
@@ -385,7 +356,7 @@ struct BoundSums<'a> {
 
 /// Returns the first `n` values of each coordinate in a buffer of matrices.
 #[inline(always)]
-fn row_of(row: &mut Matrices<f64>, n: usize) -> [&mut [f64]; 3] {
+fn row_of(row: &mut [Vec<f64>; 3], n: usize) -> [&mut [f64]; 3] {
     row.each_mut().map(|values| &mut values[..n])
 }
 

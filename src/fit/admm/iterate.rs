@@ -5,13 +5,13 @@
 //! ([`spectral_penalty`](crate::fit::energy::spectral_penalty) has the other energies). So `Y` is feasible by
 //! construction, and nothing else has to be stored.
 
+use super::matrix_field::{MatrixBand, MatrixField};
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
 use crate::fit::energy::spectral_penalty::{AnyPenalty, NuclearNorm, PenaltyKind, SpectralPenalty};
 use crate::fit::linear::z_step_solver::{SolvableOperator, ZStepSolver};
 use crate::fit::operator::{Hessians, Matrices, Sums};
-use crate::lattice::bands::{BandSlice, Bands};
-use crate::lattice::runs::Run;
+use crate::lattice::bands::BandSlice;
 use crate::math::sym2::Sym2;
 use crate::math::{fork, lanes};
 
@@ -26,127 +26,38 @@ pub(super) type SumTerms = [Vec<f64>; CERTIFICATE_SUMS];
 #[derive(Debug, Clone)]
 pub(crate) struct Iterate<O: SolvableOperator> {
     pub z: Vec<f64>,
-    pub(crate) v: MatrixField,
+    pub(crate) v: MatrixField<f64>,
     pub rho: f64,
     pub(super) scratch: O::Scratch<f64>,
     /// Buffers of each band for the terms of a certificate: of its sums over stencils and of its sums over vertices.
     pub(super) terms: Vec<[SumTerms; 2]>,
 }
 
-/// A symmetric 2×2 matrix for each stencil, one array for each coordinate of [`Sym2`].
-#[derive(Debug, Clone)]
-pub(crate) struct MatrixField {
-    mean: Vec<f64>,
-    diff: Vec<f64>,
-    off: Vec<f64>,
-}
-
-/// The part of a [`MatrixField`] that belongs to one band of stencils.
-pub(crate) struct MatrixBand<'a> {
-    mean: BandSlice<'a, f64>,
-    diff: BandSlice<'a, f64>,
-    off: BandSlice<'a, f64>,
-}
-
-impl MatrixBand<'_> {
-    #[inline(always)]
-    pub(crate) fn run(&mut self, run: Run) -> MatrixRun<'_> {
-        MatrixRun {
-            mean: self.mean.run_mut(run),
-            diff: self.diff.run_mut(run),
-            off: self.off.run_mut(run),
-        }
-    }
-}
-
-/// The part of a [`MatrixField`] that belongs to one run of stencils.
-pub(crate) struct MatrixRun<'a> {
-    mean: &'a mut [f64],
-    diff: &'a mut [f64],
-    off: &'a mut [f64],
-}
-
-impl MatrixField {
-    /// Makes a field of zero matrices, one for each stencil of the problem.
-    pub(super) fn new<O: SolvableOperator>(problem: &Problem<O>) -> Result<Self> {
-        let cells = problem.operator.stencil_cells();
-        let zeros = || try_filled("Hessians and dual", cells, 0.0);
-        Ok(MatrixField {
-            mean: zeros()?,
-            diff: zeros()?,
-            off: zeros()?,
-        })
-    }
-
-    pub(crate) fn get(&self, cell: usize) -> Sym2 {
-        Sym2 {
-            mean: self.mean[cell],
-            diff: self.diff[cell],
-            off: self.off[cell],
-        }
-    }
-
-    pub(crate) fn set(&mut self, cell: usize, value: Sym2) {
-        self.mean[cell] = value.mean;
-        self.diff[cell] = value.diff;
-        self.off[cell] = value.off;
-    }
-
-    /// Replaces `V = Y + ρH` by `Y + factor · ρH` at each stencil.
-    fn rescale<O: SolvableOperator>(
-        &mut self,
-        problem: &Problem<O>,
-        penalty: impl SpectralPenalty,
-        factor: f64,
-    ) {
-        let operator = &problem.operator;
-        let mut states: Vec<_> = self.split(operator.bands()).collect();
-        fork::for_each(&mut states, |band, v| {
-            for run in operator.bands().runs(operator.stencils(), band) {
-                let weight = problem.weight.run(*run);
-                let mut v = v.run(*run);
-                for (i, weight) in weight.iter().enumerate() {
-                    let value = v.get(i);
-                    let dual = penalty.dual(value, *weight);
-                    v.set(i, dual + (value - dual).scale(factor));
-                }
+/// Replaces `V = Y + ρH` by `Y + factor · ρH` at each stencil.
+fn rescale<O: SolvableOperator>(
+    v: &mut MatrixField<f64>,
+    problem: &Problem<O>,
+    penalty: impl SpectralPenalty,
+    factor: f64,
+) {
+    let operator = &problem.operator;
+    let mut states: Vec<_> = v.split(operator.bands()).collect();
+    fork::for_each(&mut states, |band, v| {
+        for run in operator.bands().runs(operator.stencils(), band) {
+            let weight = problem.weight.run(*run);
+            let mut v = v.run(*run);
+            for (i, weight) in weight.iter().enumerate() {
+                let value = v.get(i);
+                let dual = penalty.dual(value, *weight);
+                v.set(i, dual + (value - dual).scale(factor));
             }
-        });
-    }
-
-    /// Splits the field into the parts of its bands.
-    pub(crate) fn split<'a>(
-        &'a mut self,
-        bands: &'a Bands,
-    ) -> impl Iterator<Item = MatrixBand<'a>> + 'a {
-        let diff = bands.split(&mut self.diff);
-        let rest = diff.zip(bands.split(&mut self.off));
-        let all = bands.split(&mut self.mean).zip(rest);
-        all.map(|(mean, (diff, off))| MatrixBand { mean, diff, off })
-    }
-}
-
-impl MatrixRun<'_> {
-    #[inline(always)]
-    pub(super) fn get(&self, i: usize) -> Sym2 {
-        Sym2 {
-            mean: self.mean[i],
-            diff: self.diff[i],
-            off: self.off[i],
         }
-    }
-
-    #[inline(always)]
-    pub(crate) fn set(&mut self, i: usize, value: Sym2) {
-        self.mean[i] = value.mean;
-        self.diff[i] = value.diff;
-        self.off[i] = value.off;
-    }
+    });
 }
 
 /// The part of one band in the update of Hessians and dual: arrays that it reads and writes.
 struct Update<'a> {
-    v: MatrixBand<'a>,
+    v: MatrixBand<'a, f64>,
     /// Residual of the next z-step.
     residual: BandSlice<'a, f32>,
     /// Buffer for squared changes along one run of stencils.
@@ -167,7 +78,7 @@ impl<O: SolvableOperator> Iterate<O> {
         z.copy_from_slice(&problem.target);
         Ok(Iterate {
             z,
-            v: MatrixField::new(problem)?,
+            v: MatrixField::new(operator.stencil_cells())?,
             rho,
             scratch: operator.scratch()?,
             terms: (0..operator.bands().len()).map(|_| terms()).collect(),
@@ -177,30 +88,23 @@ impl<O: SolvableOperator> Iterate<O> {
     /// Restarts ADMM's iterate from other heights `z`, with Hessians and dual 0.
     pub(super) fn reset(&mut self, z: &[f64]) {
         self.z.copy_from_slice(z);
-        let MatrixField { mean, diff, off } = &mut self.v;
-        for coordinate in [mean, diff, off] {
-            coordinate.fill(0.0);
-        }
+        self.v.0.iter_mut().for_each(|values| values.fill(0.0));
     }
 
     /// Changes the penalty parameter ρ and keeps Hessians `H` and dual `Y`.
     pub(crate) fn set_rho(&mut self, problem: &Problem<O>, rho: f64) {
-        self.v
-            .rescale(problem, self.penalty(problem), rho / self.rho);
+        let (penalty, factor) = (self.penalty(problem), rho / self.rho);
+        rescale(&mut self.v, problem, penalty, factor);
         self.rho = rho;
     }
 
     /// Computes the matrices `V = Y + ρH` for another ρ, with this iterate's Hessians `H` and dual `Y`.
-    pub(crate) fn v_with_rho(&self, problem: &Problem<O>, rho: f64) -> Result<MatrixField> {
-        let mut v = MatrixField::new(problem)?;
-        for (to, from) in [
-            (&mut v.mean, &self.v.mean),
-            (&mut v.diff, &self.v.diff),
-            (&mut v.off, &self.v.off),
-        ] {
+    pub(crate) fn v_with_rho(&self, problem: &Problem<O>, rho: f64) -> Result<MatrixField<f64>> {
+        let mut v = MatrixField::new(problem.operator.stencil_cells())?;
+        for (to, from) in v.0.iter_mut().zip(&self.v.0) {
             to.copy_from_slice(from);
         }
-        v.rescale(problem, self.penalty(problem), rho / self.rho);
+        rescale(&mut v, problem, self.penalty(problem), rho / self.rho);
         Ok(v)
     }
 

@@ -12,6 +12,7 @@ mod divergence;
 mod dual_ascent;
 pub(crate) mod incumbent;
 pub(crate) mod iterate;
+mod matrix_field;
 mod paper;
 pub(crate) mod parameters;
 mod rank;

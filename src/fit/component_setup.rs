@@ -1,5 +1,4 @@
-//! Set-up of one component's solve in steps, before its first iteration: the energy, the coarser lattices, and the
-//! solver of the first z-step.
+//! Set-up of one component's solve in steps, before its first iteration: the energy, and the coarser lattices.
 
 use std::mem;
 use std::sync::Arc;
@@ -30,27 +29,16 @@ const PREVIEW_GAP: f64 = 0.05;
 /// Minimum number of interior vertices of a coarse lattice of the multigrid hierarchy.
 const MIN_COARSE_GRID_VERTICES: usize = 20;
 
-/// Set-up of one component's solve in steps, which ends with its [`Multilevel`] solve.
+/// Set-up of one component's solve in steps: the problem on the finest lattice, and the coarser lattices made so far. It ends with
+/// the [`Multilevel`] solve.
 #[derive(Debug, Clone)]
-pub(crate) enum ComponentSetup {
-    Lattices(Box<Lattices>),
-    FirstLevel(Box<FirstLevel>),
-}
-
-/// Outcome of one step of a component's set-up.
-pub(crate) enum SetupStep {
-    Partly(ComponentSetup),
-    Fully(Box<Multilevel>),
-}
-
-/// First part of the set-up: the problem on the finest lattice, and the coarser lattices made so far.
-#[derive(Debug, Clone)]
-pub(crate) struct Lattices {
+pub(crate) struct ComponentSetup {
     input: Input,
     options: Options,
     coordinates: Coordinates,
     parameters: AdmmParameters,
-    problem: Problem,
+    /// Problem on the finest lattice.
+    pub problem: Problem,
     /// First iterate on the finest lattice, if there is a warm start.
     warm: Option<Iterate>,
     /// Initial guess for the thin plate's heights at free vertices.
@@ -62,7 +50,7 @@ pub(crate) struct Lattices {
     next: Next,
 }
 
-/// The next step of the set-up's first part.
+/// The next step of a set-up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Next {
     /// Coarsen the input once more.
@@ -72,19 +60,6 @@ enum Next {
     /// Coarsen the input again, with the heights of free vertices.
     CoarsenAgain,
     Done,
-}
-
-/// Second part of the set-up: iterate and solver of the first level, without its first certificate.
-#[derive(Debug, Clone)]
-pub(crate) struct FirstLevel {
-    options: Options,
-    parameters: AdmmParameters,
-    problem: Problem,
-    iterate: Iterate,
-    cg: ConjugateGradients,
-    /// Problems on the finer levels, the finest first.
-    finer: Vec<Problem>,
-    domains: Vec<Arc<Domain>>,
 }
 
 impl ComponentSetup {
@@ -117,7 +92,7 @@ impl ComponentSetup {
             ),
             None => (InitialGuess::Plane, None),
         };
-        Ok(ComponentSetup::Lattices(Box::new(Lattices {
+        Ok(ComponentSetup {
             warm,
             guess,
             input,
@@ -128,39 +103,13 @@ impl ComponentSetup {
             domains: vec![domain],
             coarse: Vec::new(),
             next: if trivial { Next::Done } else { Next::Coarsen },
-        })))
-    }
-
-    /// Takes one step of the set-up, which costs about
-    /// [`SET_UP_CG_ITERATIONS`](super::multilevel::SET_UP_CG_ITERATIONS) conjugate-gradient iterations.
-    pub(crate) fn step(self) -> Result<SetupStep> {
-        Ok(match self {
-            ComponentSetup::Lattices(mut lattices) => SetupStep::Partly(match lattices.step()? {
-                true => ComponentSetup::Lattices(lattices),
-                false => ComponentSetup::FirstLevel(Box::new(lattices.into_level()?)),
-            }),
-            ComponentSetup::FirstLevel(level) => {
-                SetupStep::Fully(Box::new(level.into_multilevel()?))
-            }
         })
-    }
-
-    /// Returns the problem on the finest lattice.
-    pub(crate) fn problem(&self) -> &Problem {
-        match self {
-            ComponentSetup::Lattices(lattices) => &lattices.problem,
-            ComponentSetup::FirstLevel(level) => level.finer.first().unwrap_or(&level.problem),
-        }
     }
 
     /// Returns the input as the result of a solve that was cancelled before its first iteration.
     pub(crate) fn answer(&self) -> Result<Answer> {
-        let parameters = match self {
-            ComponentSetup::Lattices(lattices) => &lattices.parameters,
-            ComponentSetup::FirstLevel(level) => &level.parameters,
-        };
-        let problem = self.problem().clone();
-        let initial_rho = initial_rho(parameters, &problem);
+        let problem = self.problem.clone();
+        let initial_rho = initial_rho(&self.parameters, &problem);
         Ok(Answer {
             iterate: Iterate::new(&problem, initial_rho)?,
             incumbent: Incumbent::from_input(&problem),
@@ -173,11 +122,11 @@ impl ComponentSetup {
             seconds: Seconds::default(),
         })
     }
-}
 
-impl Lattices {
-    /// Takes one step of the first part of the set-up; returns whether there is another one.
-    fn step(&mut self) -> Result<bool> {
+    /// Takes one step of the set-up, which costs about
+    /// [`SET_UP_CG_ITERATIONS`](super::multilevel::SET_UP_CG_ITERATIONS) conjugate-gradient iterations; returns whether there is
+    /// another one.
+    pub(crate) fn step(&mut self) -> Result<bool> {
         match self.next {
             Next::Coarsen | Next::CoarsenAgain => {
                 if !self.coarsen()? {
@@ -223,10 +172,10 @@ impl Lattices {
         Ok(is_of_use)
     }
 
-    /// Sets up the first level: the coarsest lattice that is worth a level of its own, or the finest one with a warm
+    /// Begins the solve on its first level: the coarsest lattice that is worth a level of its own, or the finest one with a warm
     /// start.
-    fn into_level(self) -> Result<FirstLevel> {
-        let Lattices {
+    pub(crate) fn into_multilevel(self) -> Result<Multilevel> {
+        let ComponentSetup {
             mut problem,
             domains,
             options,
@@ -248,31 +197,9 @@ impl Lattices {
             }
         };
         let cg = ConjugateGradients::new(&problem, &domains[finer.len()..], iterate.rho)?;
-        Ok(FirstLevel {
-            options,
-            parameters,
-            problem,
-            iterate,
-            cg,
-            finer,
-            domains,
-        })
-    }
-}
-
-impl FirstLevel {
-    fn into_multilevel(self) -> Result<Multilevel> {
-        let parameters = self.parameters.on_level(!self.finer.is_empty(), 0);
-        let (level, reason) =
-            AdmmSolver::new(self.problem, self.iterate, self.cg, parameters, 0, true)?;
-        Multilevel::new(
-            level,
-            reason,
-            self.finer,
-            self.domains,
-            self.parameters,
-            &self.options,
-        )
+        let on_level = parameters.on_level(!finer.is_empty(), 0);
+        let (level, reason) = AdmmSolver::new(problem, iterate, cg, on_level, 0, true)?;
+        Multilevel::new(level, reason, finer, domains, parameters, &options)
     }
 }
 

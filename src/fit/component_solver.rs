@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::component_setup::{ComponentSetup, SetupStep};
+use super::component_setup::ComponentSetup;
 use super::components::{Components, check_held};
 use super::coordinates::Coordinates;
 use super::extrapolate_omitted::extrapolate_omitted;
@@ -275,15 +275,14 @@ impl ComponentSolver {
     /// [`Error::OutOfMemory`] in the set-up of a component or a level.
     pub(super) fn advance(&mut self, left: &mut usize) -> Result<Status> {
         while *left > 0 && self.status == Status::Running {
-            if let Some(preparing) = self.preparing.take() {
+            if let Some(mut preparing) = self.preparing.take() {
                 let start = Instant::now();
                 *left = left.saturating_sub(SET_UP_CG_ITERATIONS);
-                let prepared = preparing.step()?;
-                self.setup += start.elapsed().as_secs_f64();
-                match prepared {
-                    SetupStep::Partly(part) => self.preparing = Some(part),
-                    SetupStep::Fully(part) => self.begin(*part)?,
+                match preparing.step()? {
+                    true => self.preparing = Some(preparing),
+                    false => self.begin(preparing.into_multilevel()?)?,
                 }
+                self.setup += start.elapsed().as_secs_f64();
                 continue;
             }
             let Some(running) = &mut self.running else {
@@ -309,7 +308,7 @@ impl ComponentSolver {
         }
         let mut pending = self.answers.len();
         if let Some(preparing) = &self.preparing {
-            let problem = preparing.problem();
+            let problem = &preparing.problem;
             total.nuclear_norm += problem.smoothness(&problem.target);
             pending += 1;
         }

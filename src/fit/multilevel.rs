@@ -27,9 +27,8 @@ pub(crate) struct Multilevel {
     level: AdmmSolver,
     /// Problems on the finer levels, the finest first.
     finer: Vec<Problem>,
-    /// First iterate of the next finer level, from the end of the current level until the next one begins; the solver
-    /// of its z-steps joins it when that is set up.
-    carried: Option<(Iterate, Option<ConjugateGradients>)>,
+    /// First iterate of the next finer level, from the end of the current level until the next one begins.
+    carried: Option<Iterate>,
     /// Domains of all lattices, the finest first.
     domains: Vec<Arc<Domain>>,
     /// Reports of the finished coarser levels, the coarsest first.
@@ -114,17 +113,9 @@ impl Multilevel {
     /// the reason why it stopped.
     pub(crate) fn advance(&mut self, left: &mut usize) -> Result<Option<StopReason>> {
         while *left > 0 && self.reason.is_none() {
-            if let Some((iterate, cg)) = self.carried.take() {
+            if let Some(iterate) = self.carried.take() {
                 *left = left.saturating_sub(SET_UP_CG_ITERATIONS);
-                match (cg, self.finer.last()) {
-                    (None, Some(fine)) => {
-                        let domains = &self.domains[self.finer.len() - 1..];
-                        let cg = ConjugateGradients::new(fine, domains, iterate.rho)?;
-                        self.carried = Some((iterate, Some(cg)));
-                    }
-                    (Some(cg), _) => self.enter_level(iterate, cg)?,
-                    (None, None) => (),
-                }
+                self.enter_level(iterate)?;
             } else if let Some(reason) = self.level.advance(left)? {
                 self.finish_level(reason)?;
             }
@@ -143,7 +134,7 @@ impl Multilevel {
                 fine,
                 rho,
             )?;
-            self.carried = Some((iterate, None));
+            self.carried = Some(iterate);
             return Ok(());
         }
         while !self.ends
@@ -196,10 +187,12 @@ impl Multilevel {
     }
 
     /// Starts ADMM on the next finer level.
-    fn enter_level(&mut self, iterate: Iterate, cg: ConjugateGradients) -> Result<()> {
-        let Some(fine) = self.finer.pop() else {
+    fn enter_level(&mut self, iterate: Iterate) -> Result<()> {
+        let Some(last) = self.finer.len().checked_sub(1) else {
             return Ok(());
         };
+        let cg = ConjugateGradients::new(&self.finer[last], &self.domains[last..], iterate.rho)?;
+        let fine = self.finer.remove(last);
         self.coarser.push(self.level.report());
         self.seconds = self.seconds + self.level.admm.seconds;
         let done = self.coarser.iter().map(|level| level.iterations).sum();

@@ -13,7 +13,20 @@ pub(crate) const LAMBDA_RANGE: std::ops::RangeInclusive<f64> = 1e-12..=1e15;
 pub(super) const RADIUS_RANGE: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
 /// Maximum number of reweighting or crease passes that an option may ask for; further passes do not change the surface.
-const MAX_PASSES: usize = 20;
+const MAX_PASSES: f64 = 20.0;
+
+/// Checks that the value of an option, if it is given, is in its range; `requirement` says which that is.
+fn check(
+    name: &'static str,
+    value: Option<f64>,
+    is_in_range: fn(f64) -> bool,
+    requirement: &'static str,
+) -> Result<()> {
+    match value {
+        Some(value) if !is_in_range(value) => Err(Error::option(name, value, requirement)),
+        _ => Ok(()),
+    }
+}
 
 impl Options {
     /// Checks that every option is within its range and has an effect beside the other options that are given.
@@ -26,17 +39,16 @@ impl Options {
     }
 
     fn check_ranges(&self) -> Result<()> {
-        if let Some(tolerance) = self.tolerance
-            && !(tolerance.distance(1.0) > 0.0 && tolerance.distance(1.0).is_finite())
-        {
-            let requirement =
-                "must be a distance above zero, or a share of the height range such as 0.5%";
-            return Err(Error::option(
-                "tolerance",
-                tolerance.distance(1.0),
-                requirement,
-            ));
-        }
+        let count = |count: Option<usize>| count.map(|count| count as f64);
+        let distance = self.tolerance.map(|tolerance| tolerance.distance(1.0));
+        let requirement =
+            "must be a distance above zero, or a share of the height range such as 0.5%";
+        check(
+            "tolerance",
+            distance,
+            |x| x > 0.0 && x < f64::INFINITY,
+            requirement,
+        )?;
         if self.tolerance.is_some() && self.lambda_or_default() != Lambda::Auto {
             return Err(Error::option(
                 "tolerance",
@@ -44,78 +56,50 @@ impl Options {
                 "has no effect beside a number for lambda, which it decides",
             ));
         }
-        let lambda = self.lambda_or_default().value();
-        if !LAMBDA_RANGE.contains(&lambda) {
-            return Err(Error::option(
-                "lambda",
-                lambda,
-                "must lie between 1e-12 and 1e15",
-            ));
+        let lambda = Some(self.lambda_or_default().value());
+        for (name, weight) in [("lambda", lambda), ("tie_break", self.tie_break)] {
+            let is_in_range = |x| LAMBDA_RANGE.contains(&x);
+            check(name, weight, is_in_range, "must lie between 1e-12 and 1e15")?;
         }
-        if let Some(gap) = self.gap
-            && !(gap > 0.0 && gap < 1.0)
-        {
-            return Err(Error::option(
-                "gap",
-                gap,
-                "must lie between 0 and 1, both excluded",
-            ));
-        }
-        if self.reweighting > MAX_PASSES {
-            return Err(Error::option(
-                "reweighting",
-                self.reweighting,
-                "must be at most 20",
-            ));
-        }
-        if let Some(weight) = self.tie_break
-            && !LAMBDA_RANGE.contains(&weight)
-        {
-            return Err(Error::option(
-                "tie_break",
-                weight,
-                "must lie between 1e-12 and 1e15",
-            ));
-        }
-        for (name, radius) in [
+        let requirement = "must lie between 0 and 1, both excluded";
+        check("gap", self.gap, |x| x > 0.0 && x < 1.0, requirement)?;
+        let radii = [
             ("bend_radius", self.bend_radius),
             ("crease_radius", self.crease_radius),
-        ] {
-            if radius.is_some_and(|radius| !RADIUS_RANGE.contains(&radius)) {
-                return Err(Error::option(
-                    name,
-                    radius.unwrap_or_default(),
-                    "must lie between 1e-6 and 1e6",
-                ));
-            }
+        ];
+        for (name, radius) in radii {
+            let is_in_range = |x| RADIUS_RANGE.contains(&x);
+            check(name, radius, is_in_range, "must lie between 1e-6 and 1e6")?;
         }
-        if let Some(flatness) = self.flatness
-            && !(0.0..=1.0).contains(&flatness)
-        {
-            return Err(Error::option(
-                "flatness",
-                flatness,
-                "must lie between 0 and 1",
-            ));
+        let requirement = "must lie between 0 and 1";
+        check(
+            "flatness",
+            self.flatness,
+            |x| (0.0..=1.0).contains(&x),
+            requirement,
+        )?;
+        let passes = [
+            ("reweighting", Some(self.reweighting)),
+            ("crease_passes", self.crease_passes),
+        ];
+        for (name, passes) in passes {
+            check(
+                name,
+                count(passes),
+                |x| x <= MAX_PASSES,
+                "must be at most 20",
+            )?;
         }
-        if let Some(passes) = self.crease_passes
-            && passes > MAX_PASSES
-        {
-            return Err(Error::option("crease_passes", passes, "must be at most 20"));
-        }
-        if self.max_iterations == 0 {
-            return Err(Error::option("max_iterations", 0, "must be at least 1"));
-        }
-        if let Some(threads) = self.threads
-            && !(1..=MAX_THREADS).contains(&threads)
-        {
-            return Err(Error::option(
-                "threads",
-                threads,
-                "must be a whole number from 1 to 256",
-            ));
-        }
-        Ok(())
+        let iterations = count(Some(self.max_iterations));
+        check(
+            "max_iterations",
+            iterations,
+            |x| x >= 1.0,
+            "must be at least 1",
+        )?;
+        let is_in_range = |x| (1.0..=MAX_THREADS as f64).contains(&x);
+        let requirement = "must be a whole number from 1 to 256";
+        check("threads", count(self.threads), is_in_range, requirement)
     }
 
     /// Returns an error for an option that has no effect beside the other options that are given.

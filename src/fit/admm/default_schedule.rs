@@ -182,7 +182,7 @@ impl<O: SolvableOperator> DefaultSchedule<O> {
         };
         let objective = admm.incumbent.objective();
         let has_settled = before - objective <= admm.parameters.gap * objective;
-        if has_settled && !admm.replaces_incumbent() {
+        if has_settled && !admm.parameters.follows_normals {
             self.ascent_timer.note_settled(admm.iteration);
         }
         self.ascend_or_decide(admm, certificate, change)

@@ -8,7 +8,7 @@ use super::divergence::DivergenceGuard;
 use super::incumbent::Incumbent;
 use super::iterate::Iterate;
 use super::parameters::AdmmParameters;
-use super::timing::{GrowingInterval, LoadWarmup};
+use super::timing::GrowingInterval;
 use super::z_step::{ZStep, ZStepAccuracy};
 use crate::error::Result;
 use crate::fit::energy::problem::Problem;
@@ -35,7 +35,6 @@ pub(crate) struct Admm<O: SolvableOperator> {
     pub(super) iteration: usize,
     pub(super) cg_iterations: usize,
     pub(super) divergence: DivergenceGuard,
-    pub(super) warmup: LoadWarmup,
     z_step: ZStep,
     balancing: GrowingInterval,
 }
@@ -70,7 +69,6 @@ impl<O: SolvableOperator> Admm<O> {
             iteration: 0,
             cg_iterations: 0,
             divergence: DivergenceGuard::new(),
-            warmup: LoadWarmup::default(),
             z_step: ZStep::default(),
             balancing: GrowingInterval::default(),
         };
@@ -143,7 +141,7 @@ impl<O: SolvableOperator> Admm<O> {
             self.cg_iterations += balanced.iterations;
             certificate.dual_bound = certificate.dual_bound.max(balanced.bound);
         }
-        if self.replaces_incumbent() {
+        if self.parameters.follows_normals {
             self.incumbent.replace(&self.iterate.z, &certificate);
         } else {
             self.incumbent.update(&self.iterate.z, &certificate);
@@ -155,12 +153,6 @@ impl<O: SolvableOperator> Admm<O> {
         self.balancing
             .has_passed(self.iteration, BALANCE_ITERATIONS)
             || self.is_last()
-    }
-
-    /// Returns whether the energy has changed since the last check, so that the incumbent cannot be compared with the
-    /// iterate.
-    pub(super) fn replaces_incumbent(&self) -> bool {
-        self.parameters.follows_normals || self.warmup.replaces_incumbent(self.iteration)
     }
 
     /// Restarts ADMM from the incumbent after a divergence, with more accurate z-steps. Returns a reason to stop, if
@@ -188,12 +180,10 @@ impl<O: SolvableOperator> Admm<O> {
         gap: f64,
         of_schedule: Option<StopReason>,
     ) -> Option<StopReason> {
-        let reason = if self.incumbent.is_exact(gap) {
-            Some(StopReason::Rounding)
-        } else {
-            of_schedule.or(self.is_last().then_some(StopReason::MaxIterations))
-        };
-        reason.filter(|_| self.warmup.may_stop(self.iteration))
+        if self.incumbent.is_exact(gap) {
+            return Some(StopReason::Rounding);
+        }
+        of_schedule.or(self.is_last().then_some(StopReason::MaxIterations))
     }
 
     /// Returns whether the current iteration is the last one allowed.

@@ -21,31 +21,6 @@ impl GrowingInterval {
     }
 }
 
-/// Warm-up in which a surface adapts to a load on its border: until the first check after one more iteration, since it is
-/// near the solution. The load is a tiny part of the energy, so that the duality gap says nothing before the surface has
-/// followed it.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct LoadWarmup {
-    last_iteration: usize,
-}
-
-impl LoadWarmup {
-    /// Starts the warm-up at an ADMM iteration.
-    pub(super) fn start(&mut self, iteration: usize) {
-        self.last_iteration = iteration + 1;
-    }
-
-    /// Returns whether an iterate replaces the incumbent even if its objective is larger, because the warm-up lasts.
-    pub(super) fn replaces_incumbent(&self, iteration: usize) -> bool {
-        iteration <= self.last_iteration
-    }
-
-    /// Returns whether ADMM may stop at this iteration, because the warm-up is over.
-    pub(super) fn may_stop(&self, iteration: usize) -> bool {
-        iteration >= self.last_iteration
-    }
-}
-
 /// Timer that decides at which iteration dual ascent is tried again.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AscentTimer {
@@ -106,15 +81,6 @@ mod tests {
         interval.restart(40);
         assert!(!interval.has_passed(49, 0) && interval.has_passed(50, 0));
         assert!(!interval.has_passed(69, 20) && interval.has_passed(70, 20));
-    }
-
-    #[test]
-    fn a_surface_that_follows_a_load_does_not_stop() {
-        let mut warmup = LoadWarmup::default();
-        assert!(warmup.may_stop(0) && !warmup.replaces_incumbent(1));
-        warmup.start(7);
-        assert!(warmup.replaces_incumbent(8) && !warmup.replaces_incumbent(9));
-        assert!(!warmup.may_stop(7) && warmup.may_stop(8));
     }
 
     #[test]

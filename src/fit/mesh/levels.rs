@@ -98,13 +98,7 @@ impl MeshLevels {
         };
         let finest = linear.spacing;
         let has_v_cycles = linear.vertices.len() >= MIN_V_CYCLE_VERTICES;
-        let mut levels = vec![MeshLevel {
-            linear,
-            start,
-            clusters: None,
-            interpolations: Vec::new(),
-            loaded: false,
-        }];
+        let mut levels = vec![MeshLevel::new(linear, start)];
         while let Some(level) = levels.last_mut()
             && level.linear.vertices.len() >= MIN_COARSENED_VERTICES
         {
@@ -125,18 +119,10 @@ impl MeshLevels {
             let to_finer =
                 has_v_cycles.then(|| Arc::new(interpolation(&linear, &clusters, fine, sides)));
             level.clusters = Some(clusters);
-            if let Some(to_finer) = to_finer {
-                for level in &mut levels {
-                    level.interpolations.push(to_finer.clone());
-                }
+            for level in &mut levels {
+                level.interpolations.extend(to_finer.clone());
             }
-            levels.push(MeshLevel {
-                linear,
-                start,
-                clusters: None,
-                interpolations: Vec::new(),
-                loaded: false,
-            });
+            levels.push(MeshLevel::new(linear, start));
         }
         let mut creases = 0;
         if let Some(warm) = warm {
@@ -292,6 +278,16 @@ impl MeshLevels {
 }
 
 impl MeshLevel {
+    fn new(linear: Linearisation, start: StencilMatrices) -> Self {
+        MeshLevel {
+            linear,
+            start,
+            clusters: None,
+            interpolations: Vec::new(),
+            loaded: false,
+        }
+    }
+
     /// Reduces the weights of stencils on creases, and loads creases and border with the moments of the dual. Returns the
     /// number of stencils on creases.
     fn weigh_creases(&mut self, sides: &SmoothRegions, options: &MeshOptions) -> Result<usize> {
@@ -336,15 +332,9 @@ impl MeshLevel {
         };
         let solver = SparseGradients::with_v_cycle(&problem, rho, interpolations)?;
         let first = FIRST_ASCENT_ITERATION;
-        let (mut solver, reason) =
-            AdmmSolver::new(problem, iterate, solver, parameters, first, false)?;
-        Ok(match self.loaded {
-            true => {
-                solver.follow_load();
-                (solver, None)
-            }
-            false => (solver, reason),
-        })
+        let (solver, reason) = AdmmSolver::new(problem, iterate, solver, parameters, first, false)?;
+        // A load is a tiny part of the energy: the gap says nothing before the surface has followed it.
+        Ok((solver, reason.filter(|_| !self.loaded)))
     }
 }
 

@@ -62,11 +62,7 @@ impl Coordinates {
         let vertices = domain.vertices(domain.active());
         let plane = Plane::fit(vertices.filter_map(|(_, (row, col))| {
             let vertex = field.lattice().index(row, col);
-            let weight = if input.is_constrained(vertex) {
-                1.0
-            } else {
-                input.weight(vertex)
-            };
+            let weight = input.trust(vertex);
             // Heights that mean nothing do not count.
             (weight > 0.0).then(|| {
                 let [x, y] = field.lattice().position(row, col);

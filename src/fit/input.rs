@@ -305,6 +305,14 @@ impl Input {
         self.confidence.get(vertex).copied().unwrap_or(1.0)
     }
 
+    /// Returns the confidence of a height, and 1 for a constraint.
+    pub(crate) fn trust(&self, vertex: usize) -> f64 {
+        match self.is_constrained(vertex) {
+            true => 1.0,
+            false => self.weight(vertex),
+        }
+    }
+
     /// Returns whether no height of the surface has a fidelity term, so that there are constraints and free vertices
     /// alone.
     pub(crate) fn is_design(&self) -> bool {

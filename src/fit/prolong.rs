@@ -7,7 +7,7 @@
 use super::heightfields::{Iterate, Problem};
 use crate::error::Result;
 use crate::lattice::coarsening::parents;
-use crate::lattice::domain::{Domain, Role};
+use crate::lattice::domain::Role;
 use crate::lattice::hexagonal::{NEIGHBOUR_DIRECTIONS, Towards};
 use crate::math::fork;
 use crate::math::sym2::Sym2;
@@ -29,21 +29,18 @@ pub(crate) fn prolong(
     let bands = domain.bands();
     let matrices = iterate.v.split(bands);
     let mut states: Vec<_> = bands.split(&mut iterate.z).zip(matrices).collect();
+    let below = &*coarse.operator.domain;
     fork::for_each(&mut states, |band, (z, matrices)| {
         for row in bands.rows(band, domain.rows()) {
-            let sources = [0, 1].map(|col| {
-                Sources::new(&coarse.operator.domain, parents(top + row - 1, left + col))
-            });
+            // Every other vertex of a row has the same sources, relative to its first parent.
+            let sources = [0, 1].map(|col| loop_weights(parents(top + row - 1, left + col)));
             for run in domain.active().row(row) {
                 let z = z.run_mut(*run);
                 let mut matrices = matrices.run(*run);
                 for (k, i) in (run.start..run.end).enumerate() {
                     let col = i - row * domain.stride() - 1;
-                    let sources = &sources[col % 2];
-                    let cell =
-                        |offset: isize| sources.cell(col / 2, offset, &coarse.operator.domain);
-                    let (a, b) = (cell(0), cell(sources.other));
-                    if let (Some(a), Some(b)) = (a, b)
+                    let [a, b] = parents(top + row - 1, left + col);
+                    if let [Some(a), Some(b)] = [a, b].map(|vertex| below.cell(vertex))
                         && roles[a].is_active()
                         && roles[b].is_active()
                     {
@@ -51,8 +48,8 @@ pub(crate) fn prolong(
                     }
                     if domain.roles()[i] == Role::Interior {
                         let (mut sum, mut total) = (Sym2::default(), 0.0);
-                        for (offset, weight) in &sources.weights {
-                            if let Some(cell) = cell(*offset)
+                        for ([down, right], weight) in &sources[col % 2] {
+                            if let Some(cell) = below.cell((a.0 + down, a.1 + right))
                                 && roles[cell] == Role::Interior
                             {
                                 sum = sum + v.get(cell).scale(*weight);
@@ -73,60 +70,18 @@ pub(crate) fn prolong(
     Ok(iterate)
 }
 
-/// Coarse cells from which every other fine vertex of a row is interpolated, as offsets that are the same for all of
-/// them.
-struct Sources {
-    /// Coarse cell of the first parent of the first vertex of the row, counted as if the coarse box were wide enough.
-    /// (Parents of a fine vertex are the two coarse vertices that it lies between.)
-    first: isize,
-    /// Column of the coarse cell [`Self::first`] in the padded coarse box.
-    col: isize,
-    /// Offset from the first parent to the second one, in coarse cells.
-    other: isize,
-    /// Offsets from the first parent to all coarse cells that `V = Y + ρH` is interpolated from, with their weights.
-    weights: Vec<(isize, f64)>,
-}
-
-impl Sources {
-    fn new(coarse: &Domain, [a, b]: [(isize, isize); 2]) -> Self {
-        let stride = coarse.stride() as isize;
-        let offset = |(row, col): (isize, isize)| (row - a.0) * stride + col - a.1;
-        let (row, col) = (
-            a.0 - coarse.corner().0 as isize + 1,
-            a.1 - coarse.corner().1 as isize + 1,
-        );
-        Sources {
-            first: row * stride + col,
-            col,
-            other: offset(b),
-            weights: loop_weights(a, b)
-                .map(|(v, weight)| (offset(v), weight))
-                .collect(),
-        }
-    }
-
-    /// Returns the coarse cell at an offset from the first parent of the row's `k`-th vertex, if it is in the coarse
-    /// box. Offsets lead no further than to a neighbour, so that those out of the box end in its padding.
-    fn cell(&self, k: usize, offset: isize, coarse: &Domain) -> Option<usize> {
-        let inside = (0..coarse.stride() as isize).contains(&(self.col + k as isize));
-        let cell = usize::try_from(self.first + k as isize + offset).ok()?;
-        (inside && cell < coarse.cells()).then_some(cell)
-    }
-}
-
-/// Returns coarse vertices and weights of Loop's subdivision (1987) for the fine vertex between `a` and `b`: a coarse
-/// vertex itself and its neighbours if both are the same, else the ends of an edge and the vertices opposite.
-fn loop_weights(
-    a: (isize, isize),
-    b: (isize, isize),
-) -> impl Iterator<Item = ((isize, isize), f64)> {
+/// Returns the coarse vertices and weights of Loop's subdivision (1987) for the fine vertex between `a` and `b`, as offsets from `a`
+/// in rows and columns: a coarse vertex itself and its neighbours if both are the same, else the ends of an edge and the vertices
+/// opposite.
+fn loop_weights([a, b]: [(isize, isize); 2]) -> Vec<([isize; 2], f64)> {
     let around = |(row, col)| NEIGHBOUR_DIRECTIONS.map(|t: Towards| t.step(row, col));
     let end = if a == b { 5.0 } else { 3.0 };
     let shared = around(b);
-    let far = around(a).into_iter().filter(move |v| shared.contains(v));
-    [(a, end), (b, end)]
-        .into_iter()
-        .chain(far.map(|vertex| (vertex, 1.0)))
+    let far = around(a).into_iter().filter(|v| shared.contains(v));
+    let all = [(a, end), (b, end)].into_iter();
+    all.chain(far.map(|vertex| (vertex, 1.0)))
+        .map(|((row, col), weight)| ([row - a.0, col - a.1], weight))
+        .collect()
 }
 
 #[cfg(test)]
@@ -136,7 +91,7 @@ mod tests {
     use super::*;
     use crate::fit::coarsen::coarsen;
     use crate::fit::coordinates::Coordinates;
-    use crate::{Heightfield, Input, Lattice, Options};
+    use crate::{Domain, Heightfield, Input, Lattice, Options};
 
     #[test]
     fn a_constant_dual_and_a_plane_carry_over_unchanged() {

@@ -60,17 +60,6 @@ pub(super) fn rhombus(fine: &Lattice, row: usize, col: usize) -> Option<[usize; 
     })
 }
 
-impl Input {
-    /// Returns the confidence of a height, and 1 for a constraint.
-    pub(super) fn trust(&self, vertex: usize) -> f64 {
-        if self.is_constrained(vertex) {
-            1.0
-        } else {
-            self.weight(vertex)
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -177,12 +177,14 @@ mod tests {
         Heightfield::new(lattice(), heights.collect()).unwrap()
     }
 
+    fn noise_of(field: Heightfield) -> Noise {
+        Noise::from_input(&field.into()).unwrap().unwrap()
+    }
+
     #[test]
     fn white_noise_is_measured_beside_bends_and_creases() {
         for sigma in [1e-4, 1e-3, 1e-2] {
-            let noise = Noise::from_input(&roof(sigma, &white(3)).into())
-                .unwrap()
-                .unwrap();
+            let noise = noise_of(roof(sigma, &white(3)));
             assert!(
                 (noise.sigma / sigma - 1.0).abs() < 0.06,
                 "{sigma}: {noise:?}"
@@ -239,7 +241,7 @@ mod tests {
         for blur in [1.0, 1.6, 2.5] {
             for seed in [3, 5] {
                 let field = roof(1e-2, &blurred(seed, [blur; 2]));
-                let noise = Noise::from_input(&field.into()).unwrap().unwrap();
+                let noise = noise_of(field);
                 let length = noise.correlation_length / 0.01;
                 assert!((0.9..1.25).contains(&(length / blur)), "{blur} {noise:?}");
                 assert!(
@@ -269,7 +271,7 @@ mod tests {
             let heights = truth.heights().iter().zip(blurred(seed, [1.0; 2]));
             let heights = heights.map(|(z, n)| z + sigma * n).collect();
             let field = Heightfield::new(lattice(), heights).unwrap();
-            let noise = Noise::from_input(&field.into()).unwrap().unwrap();
+            let noise = noise_of(field);
             let product = noise.product / (sigma * 0.01 * shared_root([1.0; 2]));
             assert!((0.5..2.0).contains(&product), "{seed} {product}");
         }
@@ -280,7 +282,7 @@ mod tests {
     fn noise_of_scan_lines_is_seen() {
         for blur in [[3.0, 0.0], [0.0, 3.0], [4.0, 1.0]] {
             let field = roof(1e-2, &blurred(7, blur));
-            let noise = Noise::from_input(&field.into()).unwrap().unwrap();
+            let noise = noise_of(field);
             let product = noise.product / (1e-4 * shared_root(blur));
             assert!(
                 (0.5..2.5).contains(&product),
@@ -300,9 +302,7 @@ mod tests {
                 .zip(&rough)
                 .map(|(n, w)| n + share * w)
                 .collect();
-            let noise = Noise::from_input(&roof(1e-2, &both).into())
-                .unwrap()
-                .unwrap();
+            let noise = noise_of(roof(1e-2, &both));
             let product = noise.product / (1e-4 * shared_root([blur; 2]));
             assert!(
                 (0.5..1.8).contains(&product),
@@ -346,9 +346,7 @@ mod tests {
             let both: Vec<f64> = (noise.iter().zip(&rough_noise))
                 .map(|(smooth, rounding)| smooth + rough * rounding)
                 .collect();
-            let found = Noise::from_input(&roof(1e-2, &both).into())
-                .unwrap()
-                .unwrap();
+            let found = noise_of(roof(1e-2, &both));
             let length = found.correlation_length / 0.01;
             assert!(
                 (0.5..2.0).contains(&(found.sigma / 1e-2)),
@@ -367,7 +365,7 @@ mod tests {
             let heights = wave.heights().iter().zip(white(6));
             let heights = heights.map(|(z, n)| z + rough * n).collect();
             let field = Heightfield::new(lattice(), heights).unwrap();
-            let noise = Noise::from_input(&field.into()).unwrap().unwrap();
+            let noise = noise_of(field);
             assert!(
                 noise.correlation_length == 0.0 && noise.sigma < 1.1 * rough + 1e-5,
                 "{rough} {noise:?}"
@@ -384,14 +382,14 @@ mod tests {
             .iter()
             .map(|z| 1.0 + (z / step).round() * step);
         let field = Heightfield::new(lattice(), heights.collect()).unwrap();
-        let noise = Noise::from_input(&field.into()).unwrap().unwrap();
+        let noise = noise_of(field);
         assert!((noise.step.unwrap() / step - 1.0).abs() < 1e-9, "{noise:?}");
         assert!((noise.sigma / (step / 12f64.sqrt()) - 1.0).abs() < 1e-6);
         // Noise that is larger than the step is what counts.
         let rough = roof(0.05, &white(2));
         let heights = rough.heights().iter().map(|z| (z / step).round() * step);
         let field = Heightfield::new(lattice(), heights.collect()).unwrap();
-        let noise = Noise::from_input(&field.into()).unwrap().unwrap();
+        let noise = noise_of(field);
         assert!(
             noise.step.is_none() && (noise.sigma / 0.05 - 1.0).abs() < 0.1,
             "{noise:?}"
@@ -401,7 +399,7 @@ mod tests {
     #[test]
     fn constant_and_tiny_inputs_have_none() {
         let flat = Heightfield::from_fn(lattice(), |_, _| 0.0).unwrap();
-        assert_eq!(Noise::from_input(&flat.into()).unwrap().unwrap().sigma, 0.0);
+        assert_eq!(noise_of(flat).sigma, 0.0);
         let tiny = Heightfield::from_fn(Lattice::new(3, 3, 1.0).unwrap(), |x, _| x).unwrap();
         assert_eq!(Noise::from_input(&tiny.into()).unwrap(), None);
     }

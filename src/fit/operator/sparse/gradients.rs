@@ -5,13 +5,12 @@
 //! [`v_cycle`](super::v_cycle)), and one product with the matrix is saved.
 
 use super::v_cycle::{Interpolations, VCycle};
-use super::{MAX_RUN_LENGTH, Rows, SparseOperator, normal};
+use super::{MAX_RUN_LENGTH, SparseOperator, normal};
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
 use crate::fit::linear::z_step_solver::{CgCriteria, SolvableOperator, ZStepSolver};
 use crate::fit::operator::Operator;
 use crate::math::lanes;
-use crate::math::real::Real;
 
 /// Number of Jacobi-preconditioned iterations in one step of the z-step's solver: together they do about as much as a
 /// V-cycle on a small mesh, for which ADMM's schedule is made (`benches/whole.md`).
@@ -50,96 +49,34 @@ impl System {
     }
 }
 
-/// State of preconditioned conjugate gradients for the z-step, in single or double precision.
+/// State of preconditioned conjugate gradients for the z-step, in single precision.
 #[derive(Debug, Clone)]
-struct Gradients<T> {
-    residual: Vec<T>,
-    solution: Vec<T>,
-    direction: Vec<T>,
-    image: Vec<T>,
+struct Gradients {
+    residual: Vec<f32>,
+    solution: Vec<f32>,
+    direction: Vec<f32>,
+    image: Vec<f32>,
     /// Scaled fidelity weights; with `rho`, the factor of `CᵀC`, and `inverse`, the inverse diagonal, this is the
     /// scaled matrix.
-    fidelity: Vec<T>,
-    rho: T,
-    inverse: Vec<T>,
+    fidelity: Vec<f32>,
+    rho: f32,
+    inverse: Vec<f32>,
     /// Product `r·M⁻¹r` of residual and preconditioned residual; `previous` is the one of the iteration before, and 0
     /// before the first.
     energy: f64,
     previous: f64,
 }
 
-/// A floating-point precision that conjugate gradients run in, with conversions from and to double precision.
-trait Precision: Real {
-    fn from_f64(value: f64) -> Self;
-    fn double(self) -> f64;
-    /// Returns the operator's rows in this precision, and their weights times their factors of ρ.
-    fn rows(operator: &SparseOperator) -> (&Rows<Self>, &[Self]);
-    /// Returns the factor by which the operator's rows of this precision are scaled.
-    fn unit(operator: &SparseOperator) -> f64;
-    fn dot(a: &[Self], b: &[Self]) -> f64;
-    fn weighted_square(a: &[Self], weight: &[Self]) -> f64;
-}
-
-impl Precision for f32 {
-    #[inline(always)]
-    fn from_f64(value: f64) -> f32 {
-        lanes::single(value)
-    }
-    #[inline(always)]
-    fn double(self) -> f64 {
-        lanes::double(self)
-    }
-    fn rows(operator: &SparseOperator) -> (&Rows<f32>, &[f32]) {
-        (&operator.single, &operator.single_rho_weights)
-    }
-    fn unit(operator: &SparseOperator) -> f64 {
-        operator.spacing.powi(2)
-    }
-    fn dot(a: &[f32], b: &[f32]) -> f64 {
-        a.chunks(MAX_RUN_LENGTH)
-            .zip(b.chunks(MAX_RUN_LENGTH))
-            .map(|(a, b)| lanes::dot(a, b))
-            .sum()
-    }
-    fn weighted_square(a: &[f32], weight: &[f32]) -> f64 {
-        let chunks = a.chunks(MAX_RUN_LENGTH).zip(weight.chunks(MAX_RUN_LENGTH));
-        chunks
-            .map(|(a, weight)| lanes::weighted_square(a, weight))
-            .sum()
-    }
-}
-
-impl Precision for f64 {
-    fn from_f64(value: f64) -> f64 {
-        value
-    }
-    fn double(self) -> f64 {
-        self
-    }
-    fn rows(operator: &SparseOperator) -> (&Rows<f64>, &[f64]) {
-        (&operator.double, &operator.rho_weights)
-    }
-    fn unit(_: &SparseOperator) -> f64 {
-        1.0
-    }
-    fn dot(a: &[f64], b: &[f64]) -> f64 {
-        a.iter().zip(b).map(|(a, b)| a * b).sum()
-    }
-    fn weighted_square(a: &[f64], weight: &[f64]) -> f64 {
-        a.iter().zip(weight).map(|(a, weight)| a * a * weight).sum()
-    }
-}
-
-impl<T: Precision> Gradients<T> {
+impl Gradients {
     fn new(operator: &SparseOperator, system: &System) -> Result<Self> {
-        let zeros = || try_filled("conjugate gradients", operator.vertex_cells(), T::default());
+        let zeros = || try_filled("conjugate gradients", operator.vertex_cells(), 0.0);
         let mut gradients = Gradients {
             residual: zeros()?,
             solution: zeros()?,
             direction: zeros()?,
             image: zeros()?,
             fidelity: zeros()?,
-            rho: T::default(),
+            rho: 0.0,
             inverse: zeros()?,
             energy: 0.0,
             previous: 0.0,
@@ -148,28 +85,27 @@ impl<T: Precision> Gradients<T> {
         Ok(gradients)
     }
 
-    /// Takes over the values of a system's matrix, in this precision.
+    /// Takes over the values of a system's matrix, in single precision, in which the operator's rows are scaled.
     fn take(&mut self, operator: &SparseOperator, system: &System) {
-        let unit = T::unit(operator);
-        self.rho = T::from_f64(system.rho / (system.diagonal * unit * unit));
+        self.rho = lanes::single(system.rho / (system.diagonal * operator.spacing.powi(4)));
         for vertex in 0..self.inverse.len() {
-            self.fidelity[vertex] = T::from_f64(system.fidelity[vertex] / system.diagonal);
-            self.inverse[vertex] = T::from_f64(system.inverse[vertex]);
+            self.fidelity[vertex] = lanes::single(system.fidelity[vertex] / system.diagonal);
+            self.inverse[vertex] = lanes::single(system.inverse[vertex]);
         }
     }
 
     /// Starts conjugate gradients with the residual as it is, and 0 as the solution.
     fn start(&mut self) {
-        self.solution.fill(T::default());
-        self.direction.fill(T::default());
+        self.solution.fill(0.0);
+        self.direction.fill(0.0);
         self.previous = 0.0;
         self.measure();
     }
 
     /// Computes the residual of the solution so far, for the right-hand side `right`.
-    fn compute_residual(&mut self, operator: &SparseOperator, right: &[T]) {
-        let (rows, weights) = T::rows(operator);
-        normal(rows, weights, &self.solution, &mut self.image);
+    fn compute_residual(&mut self, operator: &SparseOperator, right: &[f32]) {
+        let weights = &operator.single_rho_weights;
+        normal(&operator.single, weights, &self.solution, &mut self.image);
         for (i, residual) in self.residual.iter_mut().enumerate() {
             let image = self.fidelity[i] * self.solution[i] + self.rho * self.image[i];
             *residual = right[i] - image;
@@ -178,7 +114,11 @@ impl<T: Precision> Gradients<T> {
     }
 
     fn measure(&mut self) {
-        self.energy = T::weighted_square(&self.residual, &self.inverse);
+        let residuals = self.residual.chunks(MAX_RUN_LENGTH);
+        self.energy = residuals
+            .zip(self.inverse.chunks(MAX_RUN_LENGTH))
+            .map(|(residual, inverse)| lanes::weighted_square(residual, inverse))
+            .sum();
     }
 
     /// Takes one conjugate-gradient iteration; returns `false` if nothing is left to improve.
@@ -191,35 +131,31 @@ impl<T: Precision> Gradients<T> {
         } else {
             0.0
         };
-        let beta = T::from_f64(beta);
+        let beta = lanes::single(beta);
         for (i, direction) in self.direction.iter_mut().enumerate() {
             *direction = self.inverse[i] * self.residual[i] + beta * *direction;
         }
-        let (rows, weights) = T::rows(operator);
-        normal(rows, weights, &self.direction, &mut self.image);
+        let weights = &operator.single_rho_weights;
+        normal(&operator.single, weights, &self.direction, &mut self.image);
         for (i, image) in self.image.iter_mut().enumerate() {
             *image = self.fidelity[i] * self.direction[i] + self.rho * *image;
         }
-        let curvature = T::dot(&self.direction, &self.image);
+        let directions = self.direction.chunks(MAX_RUN_LENGTH);
+        let curvature: f64 = directions
+            .zip(self.image.chunks(MAX_RUN_LENGTH))
+            .map(|(direction, image)| lanes::dot(direction, image))
+            .sum();
         if curvature.is_nan() || curvature <= 0.0 {
             return false;
         }
-        let alpha = T::from_f64(self.energy / curvature);
+        let alpha = lanes::single(self.energy / curvature);
         for (i, residual) in self.residual.iter_mut().enumerate() {
-            self.solution[i] = self.solution[i] + alpha * self.direction[i];
-            *residual = *residual - alpha * self.image[i];
+            self.solution[i] += alpha * self.direction[i];
+            *residual -= alpha * self.image[i];
         }
         self.previous = self.energy;
         self.measure();
         true
-    }
-
-    /// Measures the residual: the largest distance by which the residual at a single vertex would move its height if no
-    /// other moved.
-    fn distance(&self) -> f64 {
-        let moved = self.residual.iter().zip(&self.inverse);
-        let moved = moved.map(|(r, inverse)| (*r * *inverse).double().abs());
-        moved.fold(0.0, f64::max)
     }
 }
 
@@ -227,7 +163,7 @@ impl<T: Precision> Gradients<T> {
 #[derive(Debug, Clone)]
 pub(crate) struct SparseGradients {
     system: System,
-    gradients: Gradients<f32>,
+    gradients: Gradients,
     /// Residual as written by the caller, in single precision.
     residual: Vec<f32>,
     /// Whether ρ has changed since the matrix was made.
@@ -349,7 +285,7 @@ impl ZStepSolver<SparseOperator> for SparseGradients {
 
     fn correct(&mut self, operator: &SparseOperator, z: &mut [f64]) {
         for vertex in operator.vertices().cells() {
-            z[vertex] += self.unit * self.gradients.solution[vertex].double();
+            z[vertex] += self.unit * lanes::double(self.gradients.solution[vertex]);
         }
     }
 
@@ -360,22 +296,39 @@ impl ZStepSolver<SparseOperator> for SparseGradients {
         x: &mut [f64],
         criteria: CgCriteria,
     ) -> Result<usize> {
-        let operator = &problem.operator;
-        let mut gradients = Gradients::<f64>::new(operator, &self.system)?;
-        for (to, from) in gradients.residual.iter_mut().zip(&*residual) {
-            *to = from / self.system.diagonal;
-        }
-        gradients.start();
-        let goal = criteria.tolerance * gradients.distance();
-        let mut done = 0;
-        while done < JACOBI_STEPS * criteria.max_iterations && gradients.distance() > goal {
-            if !gradients.step(operator) {
+        let (operator, system) = (&problem.operator, &self.system);
+        let mut gradients = Gradients::new(operator, system)?;
+        let mut step = try_filled("conjugate gradients", x.len(), 0.0)?;
+        let mut image = step.clone();
+        let (mut goal, mut done) = (None, 0);
+        while done < JACOBI_STEPS * criteria.max_iterations {
+            // The largest distance by which the residual at a single vertex would move its height if no other moved.
+            let moved = residual.iter().zip(&system.inverse);
+            let distance = moved.fold(0.0, |most, (r, inverse)| {
+                f64::max(most, (r * inverse).abs())
+            });
+            if distance <= *goal.get_or_insert(criteria.tolerance * distance) {
                 break;
             }
-            done += 1;
-        }
-        for (x, more) in x.iter_mut().zip(&gradients.solution) {
-            *x += more;
+            for (to, from) in gradients.residual.iter_mut().zip(&*residual) {
+                *to = lanes::single(from / distance);
+            }
+            gradients.start();
+            let first = gradients.energy;
+            while gradients.energy > criteria.tolerance * first && gradients.step(operator) {
+                done += 1;
+            }
+            for (step, single) in step.iter_mut().zip(&gradients.solution) {
+                *step = distance / system.diagonal * lanes::double(*single);
+            }
+            normal(&operator.double, &operator.rho_weights, &step, &mut image);
+            for (i, step) in step.iter().enumerate() {
+                x[i] += step;
+                residual[i] -= system.fidelity[i] * step + system.rho * image[i];
+            }
+            if gradients.energy >= first {
+                break;
+            }
         }
         Ok(done.div_ceil(JACOBI_STEPS))
     }

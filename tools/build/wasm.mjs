@@ -23,12 +23,12 @@ import { run } from '../util/process.mjs';
  * have to send, gzipped.
  */
 const files = [
-  { name: 'solver', limit: 273_000 },
+  { name: 'solver', limit: 271_000 },
   { name: 'files', limit: 292_000 },
   { name: 'images', limit: 591_000 },
   { name: 'meshes', limit: 345_000 },
-  { name: 'fitmesh', limit: 234_000 },
-  { name: 'unroll', limit: 357_000 },
+  { name: 'fitmesh', limit: 231_000 },
+  { name: 'unroll', limit: 358_000 },
   { name: 'patterns', limit: 656_000 },
 ];
 

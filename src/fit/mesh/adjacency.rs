@@ -1,8 +1,8 @@
-//! The neighbours of each vertex of a mesh.
+//! The neighbours of each vertex of a mesh, and the triangles around each.
 
 use crate::error::{Result, try_filled};
 
-/// Neighbours of each vertex, in one array for all vertices.
+/// Neighbours of each vertex, or triangles around each, in one array for all vertices.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Adjacency {
     /// Index of each vertex's first neighbour, and the number of all neighbours at the end.
@@ -20,20 +20,29 @@ impl Adjacency {
         vertices: usize,
         edges: impl Iterator<Item = [u32; 2]> + Clone,
     ) -> Result<Self> {
+        Adjacency::from_pairs(vertices, edges.flat_map(|[a, b]| [(a, b), (b, a)]))
+    }
+
+    /// Makes the lists of a number of vertices from pairs of a vertex and what is beside it, which keep their order.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub(super) fn from_pairs(
+        vertices: usize,
+        pairs: impl Iterator<Item = (u32, u32)> + Clone,
+    ) -> Result<Self> {
         let mut first = try_filled("vertices", vertices + 1, 0u32)?;
-        for end in edges.clone().flatten() {
-            first[end as usize + 1] += 1;
+        for (vertex, _) in pairs.clone() {
+            first[vertex as usize + 1] += 1;
         }
         for vertex in 0..vertices {
             first[vertex + 1] += first[vertex];
         }
         let mut next: Vec<u32> = first[..vertices].to_vec();
         let mut neighbours = try_filled("edges", first[vertices] as usize, 0)?;
-        for [a, b] in edges {
-            for (from, to) in [(a, b), (b, a)] {
-                neighbours[next[from as usize] as usize] = to;
-                next[from as usize] += 1;
-            }
+        for (vertex, beside) in pairs {
+            neighbours[next[vertex as usize] as usize] = beside;
+            next[vertex as usize] += 1;
         }
         Ok(Adjacency { first, neighbours })
     }

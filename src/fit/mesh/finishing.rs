@@ -7,7 +7,6 @@ use super::orientation::turn_back;
 use super::self_intersections::{all_entangled, separate_self_intersections};
 use super::smooth_regions::SmoothRegions;
 use super::tight_bends::restore_bends;
-use super::vertex_fans::VertexFans;
 
 /// Maximum movement of a vertex to the smoothed curve of its border or crease, in standard deviations of the
 /// noise (`benches/whole.md`).
@@ -41,15 +40,14 @@ pub(super) fn fair_creases(
 /// for which that is not possible with all vertices within their reach.
 pub(super) fn untangle(
     given: &MeshInput,
-    vertex_fans: &VertexFans,
     x: &mut [Point],
     creased: &dyn Fn(usize) -> bool,
 ) -> Vec<u32> {
     for _ in 0..MAX_UNTANGLING_ROUNDS {
-        separate_self_intersections(given, vertex_fans, x, creased);
-        if !turn_back(given, vertex_fans, x) {
+        separate_self_intersections(given, x, creased);
+        if !turn_back(given, x) {
             break;
         }
     }
-    all_entangled(given, vertex_fans, x)
+    all_entangled(given, x)
 }

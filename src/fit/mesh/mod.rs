@@ -37,7 +37,6 @@ mod solver;
 mod tests;
 mod tight_bends;
 pub(crate) mod topology;
-mod vertex_fans;
 
 pub(crate) use bounding_sphere::bounding_sphere_scale;
 pub use known::MeshKnown;

@@ -3,7 +3,6 @@
 use super::geometry::{Point, faces_away, twice_area};
 use super::input::MeshInput;
 use super::topology::Topology;
-use super::vertex_fans::VertexFans;
 
 /// Maximum number of steps in which folded triangles are laid flat (`benches/whole.md`).
 const MAX_UNFOLDING_STEPS: usize = 40;
@@ -28,11 +27,11 @@ const TURNED_BACK_MARGIN: f64 = 1.1;
 /// any. Their corners move along the surface and within their reach; those that are held stay. Normals are at first those
 /// over two rings, so that few small triangles which are turned over together do not decide, then those over one. Costs
 /// `O(triangles)`, and in each round what has moved.
-pub(super) fn turn_back(given: &MeshInput, fans: &VertexFans, x: &mut [Point]) -> bool {
+pub(super) fn turn_back(given: &MeshInput, x: &mut [Point]) -> bool {
     let topology = &given.topology;
     let mut found = false;
     for is_wide in [true, false] {
-        let mut normals = MeanNormals::new(topology, fans, x, is_wide);
+        let mut normals = MeanNormals::new(topology, x, is_wide);
         let mut is_due = vec![true; topology.triangles.len()];
         for _ in 0..MAX_TURNING_ROUNDS {
             let mut moved = Vec::new();
@@ -45,7 +44,7 @@ pub(super) fn turn_back(given: &MeshInput, fans: &VertexFans, x: &mut [Point]) -
                 for (corner, before) in corners.iter().zip(before) {
                     if x[*corner as usize] != before {
                         moved.push(*corner);
-                        let own = fans.around(*corner as usize).iter();
+                        let own = topology.triangles_around(*corner as usize).iter();
                         own.for_each(|other| is_due[*other as usize] = true);
                     }
                 }
@@ -53,8 +52,8 @@ pub(super) fn turn_back(given: &MeshInput, fans: &VertexFans, x: &mut [Point]) -
             if moved.is_empty() {
                 break;
             }
-            for vertex in normals.update(topology, fans, x, moved) {
-                let own = fans.around(vertex as usize).iter();
+            for vertex in normals.update(topology, x, moved) {
+                let own = topology.triangles_around(vertex as usize).iter();
                 own.for_each(|other| is_due[*other as usize] = true);
             }
         }
@@ -72,27 +71,21 @@ pub(super) struct MeanNormals {
 }
 
 impl MeanNormals {
-    pub(super) fn new(topology: &Topology, fans: &VertexFans, x: &[Point], is_wide: bool) -> Self {
+    pub(super) fn new(topology: &Topology, x: &[Point], is_wide: bool) -> Self {
         let mut normals = MeanNormals {
             up: vec![Point::zeros(); x.len()],
             is_wide,
             sums: vec![(Point::zeros(), 0.0); x.len()],
         };
-        normals.update(topology, fans, x, (0..x.len() as u32).collect());
+        normals.update(topology, x, (0..x.len() as u32).collect());
         normals
     }
 
     /// Computes those anew that depend on vertices that have moved, and returns where they do.
-    fn update(
-        &mut self,
-        topology: &Topology,
-        fans: &VertexFans,
-        x: &[Point],
-        moved: Vec<u32>,
-    ) -> Vec<u32> {
+    fn update(&mut self, topology: &Topology, x: &[Point], moved: Vec<u32>) -> Vec<u32> {
         let near = topology.within_rings(moved, 1);
         for vertex in &near {
-            let own = fans.around(*vertex as usize).iter();
+            let own = topology.triangles_around(*vertex as usize).iter();
             let sides = own.map(|t| twice_area(x, &topology.triangles[*t as usize]));
             self.sums[*vertex as usize] = sides.fold((Point::zeros(), 0.0), |(sum, size), side| {
                 (sum + side, size + side.norm())

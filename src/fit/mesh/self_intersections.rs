@@ -8,7 +8,6 @@ use super::geometry::{Point, twice_area};
 use super::input::MeshInput;
 use super::orientation::MeanNormals;
 use super::topology::Topology;
-use super::vertex_fans::VertexFans;
 
 /// Minimum cosine of the angle between the normals of a triangle and of its vertex at which the triangles around that
 /// vertex are assumed not to cross others.
@@ -35,13 +34,12 @@ const WIDENING_ROUNDS: usize = 10;
 /// their neighbours, those on creases along these first, and all within their reach. Vertices that are held stay.
 pub(super) fn separate_self_intersections(
     given: &MeshInput,
-    vertex_fans: &VertexFans,
     x: &mut [Point],
     creased: &dyn Fn(usize) -> bool,
 ) {
     let topology = &given.topology;
-    let mut bad = all_entangled(given, vertex_fans, x);
-    let mut up = MeanNormals::new(topology, vertex_fans, x, true).up;
+    let mut bad = all_entangled(given, x);
+    let mut up = MeanNormals::new(topology, x, true).up;
     up.iter_mut()
         .for_each(|up| *up = up.try_normalize(0.0).unwrap_or_default());
     let mut left = MAX_VISITS_PER_VERTEX * topology.len() + EXTRA_VISITS;
@@ -76,14 +74,14 @@ pub(super) fn separate_self_intersections(
         }
         let near = topology.within_rings(moving.clone(), CROSSING_SEARCH_RINGS);
         left = left.saturating_sub(near.len());
-        bad = entangled_triangles(topology, vertex_fans, x, &near);
+        bad = entangled_triangles(topology, x, &near);
     }
 }
 
 /// Finds the triangles of the surface that cross others near them or are folded over.
-pub(super) fn all_entangled(given: &MeshInput, vertex_fans: &VertexFans, x: &[Point]) -> Vec<u32> {
+pub(super) fn all_entangled(given: &MeshInput, x: &[Point]) -> Vec<u32> {
     let all: Vec<u32> = (0..given.topology.len() as u32).collect();
-    entangled_triangles(&given.topology, vertex_fans, x, &all)
+    entangled_triangles(&given.topology, x, &all)
 }
 
 /// Returns the mean of a vertex's neighbours: of the two along the border, or of the two along a line of `creased`
@@ -115,17 +113,12 @@ fn mean_beside(
 
 /// Finds the triangles at the given vertices that cross a triangle near them, the triangles that they cross, and those
 /// that face away from the normals of their corners.
-fn entangled_triangles(
-    topology: &Topology,
-    vertex_fans: &VertexFans,
-    x: &[Point],
-    vertices: &[u32],
-) -> Vec<u32> {
+fn entangled_triangles(topology: &Topology, x: &[Point], vertices: &[u32]) -> Vec<u32> {
     let triangles = &topology.triangles;
     let mut bad = Vec::new();
     let mut suspects = Vec::new();
     for vertex in vertices {
-        let own = vertex_fans.around(*vertex as usize);
+        let own = topology.triangles_around(*vertex as usize);
         let sides = own.iter().map(|t| twice_area(x, &triangles[*t as usize]));
         let up = sides.clone().sum::<Point>();
         if sides
@@ -138,7 +131,7 @@ fn entangled_triangles(
     suspects.sort_unstable();
     suspects.dedup();
     let up = |vertex: &u32| {
-        let own = vertex_fans.around(*vertex as usize).iter();
+        let own = topology.triangles_around(*vertex as usize).iter();
         let sum: Point = own.map(|t| twice_area(x, &triangles[*t as usize])).sum();
         sum.try_normalize(0.0).unwrap_or_default()
     };
@@ -169,7 +162,7 @@ fn entangled_triangles(
         }
         for other in near
             .iter()
-            .flat_map(|vertex| vertex_fans.around(*vertex as usize))
+            .flat_map(|vertex| topology.triangles_around(*vertex as usize))
         {
             let is_new = std::mem::replace(&mut triangles_met[*other as usize], number) != number;
             let other_corners = &triangles[*other as usize];

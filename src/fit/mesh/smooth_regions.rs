@@ -1,8 +1,8 @@
 //! Smooth regions of a mesh, whose borders are its creases.
 
+use super::adjacency::Adjacency;
 use super::geometry::Point;
 use super::topology::Topology;
-use super::vertex_fans::VertexFans;
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::scene::facets::Facets;
@@ -17,7 +17,8 @@ const MIN_SIDE_AREA_SHARE: f64 = 0.003;
 pub(super) struct SmoothRegions {
     /// Region that all triangles of a vertex belong to, or [`NO_INDEX`] where regions meet.
     pub region: Vec<u32>,
-    pub vertex_fans: VertexFans,
+    /// Triangles around each vertex.
+    fans: Adjacency,
     /// Region that each triangle belongs to.
     labels: Vec<u32>,
 }
@@ -36,11 +37,11 @@ impl SmoothRegions {
         )?;
         let mut sides = SmoothRegions {
             region: vec![NO_INDEX; topology.len()],
-            vertex_fans: VertexFans::new(topology),
+            fans: topology.fans.clone(),
             labels,
         };
         for (vertex, region) in sides.region.iter_mut().enumerate() {
-            let fan = sides.vertex_fans.around(vertex).iter();
+            let fan = sides.fans.around(vertex).iter();
             let mut labels = fan.map(|t| sides.labels[*t as usize]);
             if let Some(first) = labels.next()
                 && labels.all(|label| label == first)
@@ -58,7 +59,7 @@ impl SmoothRegions {
 
     /// Returns whether a vertex has triangles of the region `side`.
     pub(super) fn touches(&self, vertex: usize, side: u32) -> bool {
-        let own = self.vertex_fans.around(vertex).iter();
+        let own = self.fans.around(vertex).iter();
         own.map(|t| self.labels[*t as usize]).any(|s| s == side)
     }
 
@@ -69,7 +70,7 @@ impl SmoothRegions {
             if !topology.inside[vertex] || !self.is_on_crease(vertex) {
                 return None;
             }
-            let own = self.vertex_fans.around(vertex);
+            let own = self.fans.around(vertex);
             let folds = |other: &u32| {
                 let both = own.iter().map(|t| *t as usize);
                 let mut labels = both
@@ -88,7 +89,7 @@ impl SmoothRegions {
 
     /// Returns the smooth regions that meet at a vertex, in ascending order.
     pub(super) fn around(&self, vertex: usize) -> Vec<u32> {
-        let own = self.vertex_fans.around(vertex).iter();
+        let own = self.fans.around(vertex).iter();
         let mut found: Vec<u32> = own.map(|t| self.labels[*t as usize]).collect();
         found.sort_unstable();
         found.dedup();

@@ -20,7 +20,6 @@ use super::self_intersections::separate_self_intersections;
 use super::shape_measures::ShapeMeasures;
 use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
-use super::vertex_fans::VertexFans;
 use crate::error::{Result, try_filled};
 use crate::fit::admm::parameters::AdmmParameters;
 use crate::fit::component_solver::Status;
@@ -302,16 +301,11 @@ impl MeshSolver {
             // Normals beside creases have changed.
             let up = normals(&given.topology, surface, Some(&old));
             unfold(given, surface, &up);
-            self.entangled = untangle(given, &sides.vertex_fans, surface, &|v| {
-                sides.is_on_crease(v)
-            });
+            self.entangled = untangle(given, surface, &|v| sides.is_on_crease(v));
         } else if done {
-            self.entangled = untangle(given, &VertexFans::new(&given.topology), surface, &|_| {
-                false
-            });
+            self.entangled = untangle(given, surface, &|_| false);
         } else {
-            let fans = VertexFans::new(&given.topology);
-            separate_self_intersections(given, &fans, surface, &|_| false);
+            separate_self_intersections(given, surface, &|_| false);
         }
         if done {
             self.reason = Some(reason);

@@ -26,6 +26,8 @@ pub(crate) struct Topology {
     pub adjacency: Adjacency,
     /// Neighbours of each vertex along the border.
     rim: Adjacency,
+    /// Triangles around each vertex, in ascending order.
+    pub(super) fans: Adjacency,
     /// Whether each vertex is interior: its triangles form one closed fan around it.
     pub inside: Vec<bool>,
     /// Number of pinched vertices, where two fans of triangles meet in a point.
@@ -95,6 +97,7 @@ impl Topology {
             joined,
             adjacency: Adjacency::default(),
             rim: Adjacency::default(),
+            fans: Adjacency::default(),
             inside: try_filled("vertices", source.len(), false)?,
             source,
             triangles,
@@ -120,6 +123,11 @@ impl Topology {
     /// Returns the neighbours of a vertex.
     pub(crate) fn around(&self, vertex: usize) -> &[u32] {
         self.adjacency.around(vertex)
+    }
+
+    /// Returns the indices of the triangles around a vertex, in ascending order.
+    pub(super) fn triangles_around(&self, vertex: usize) -> &[u32] {
+        self.fans.around(vertex)
     }
 
     /// Returns the given vertices and those within `rings` rings around them, each once, in ascending order.
@@ -175,6 +183,9 @@ impl Topology {
         let rim = || edges.iter().filter(|edge| edge.len() != 2);
         self.rim = Adjacency::from_edges(self.len(), rim().map(ends))?;
         self.closed = rim().next().is_none();
+        let corners = (0..).zip(&self.triangles);
+        let corners = corners.flat_map(|(triangle, own)| own.map(|corner| (corner, triangle)));
+        self.fans = Adjacency::from_pairs(self.len(), corners)?;
         self.find_inside();
         Ok(())
     }

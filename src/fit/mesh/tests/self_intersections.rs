@@ -1,15 +1,12 @@
 use super::*;
 use crate::closed_meshes::crossings;
 use crate::fit::mesh::self_intersections::separate_self_intersections;
-use crate::fit::mesh::vertex_fans::VertexFans;
 
 /// Two vertices next to each other on an edge of a cube change places.
 #[test]
 fn vertices_that_passed_each_other_on_a_crease_go_back() {
     let truth = cube(8);
     let given = given(&truth);
-    let topology = &given.topology;
-    let vertex_fans = VertexFans::new(topology);
     let edge = |x: &Point| x.x == 1.0 && x.y == 1.0;
     let at = |z: f64| {
         let all = given.noisy.iter();
@@ -22,7 +19,7 @@ fn vertices_that_passed_each_other_on_a_crease_go_back() {
     x[one].z += 0.35;
     x[other].z -= 0.2;
     assert!(crossings(&with_positions(&truth, &x)) > 0);
-    separate_self_intersections(&given, &vertex_fans, &mut x, &|v| edge(&given.noisy[v]));
+    separate_self_intersections(&given, &mut x, &|v| edge(&given.noisy[v]));
     assert_eq!(crossings(&with_positions(&truth, &x)), 0);
     assert!(x[at(-0.25)].z < x[one].z && x[one].z < x[other].z && x[other].z < x[at(0.5)].z);
     // What is not near stays, and what is on the edge slides along it.
@@ -44,7 +41,6 @@ fn bodies_put_through_each_other_stay() {
     assert!(crossings(&both) > 0);
     let given = given(&both);
     let mut x = given.noisy.clone();
-    let vertex_fans = VertexFans::new(&given.topology);
-    separate_self_intersections(&given, &vertex_fans, &mut x, &|_| false);
+    separate_self_intersections(&given, &mut x, &|_| false);
     assert_eq!(x, given.noisy);
 }

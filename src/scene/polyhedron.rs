@@ -252,12 +252,17 @@ impl Polyhedron {
                     along.cross(&axis).normalize()
                 }
             };
-            // The plane of a slender triangle is the less certain the farther from it.
-            let height = 2.0 * size / longest_side(self.corners(seed)).max(f64::MIN_POSITIVE);
+            // A place in the plane of three corners is a mean of these, with weights below 0 outside of the triangle; so is what
+            // their rounding does to it.
+            let corners = self.corners(seed);
+            let least = self.rounding * self.rounding;
             let is_in_plane = |p: &Place| {
-                let off = p - origin;
-                normal.dot(&off).abs()
-                    <= self.rounding * (1.0 + off.norm() / height.max(self.rounding))
+                let weight = |k: usize| {
+                    let [from, to] = [corners[(k + 1) % 3] - p, corners[(k + 2) % 3] - p];
+                    0.5 * normal.dot(&from.cross(&to)).abs() / size.max(least)
+                };
+                let weights: f64 = (0..3).map(weight).sum();
+                normal.dot(&(p - origin)).abs() <= self.rounding * weights.max(1.0)
             };
             let (mut members, mut next) = (vec![seed], 0);
             self.facets[seed] = number;
@@ -299,13 +304,6 @@ impl Polyhedron {
             self.areas.push(area);
         }
     }
-}
-
-fn longest_side([a, b, c]: [Place; 3]) -> f64 {
-    [(a, b), (b, c), (c, a)]
-        .iter()
-        .map(|(p, q)| (q - p).norm())
-        .fold(0.0, f64::max)
 }
 
 /// Distance below which points of a mesh are one.

@@ -68,6 +68,8 @@ pub(super) struct EdgeChoices {
 #[derive(Default)]
 pub(super) struct Piece {
     pub facets: Vec<u32>,
+    /// Number of the facets' triangles.
+    triangles: usize,
     grid: FxHashMap<[i32; 2], Vec<u32>>,
 }
 
@@ -83,6 +85,9 @@ pub(super) struct Net<'a> {
     pub(super) piece_of: Vec<u32>,
     pub(super) pieces: Vec<Piece>,
     cell: f64,
+    /// The last comparison of a triangle with others in which each triangle took part, of so many.
+    compared: Vec<usize>,
+    comparisons: usize,
     /// Width and height within which each piece has to lie, if it has to.
     room: Option<[f64; 2]>,
     pub(super) choices: EdgeChoices,
@@ -129,6 +134,8 @@ impl<'a> Net<'a> {
             cell: (area / solid.triangles.len() as f64)
                 .sqrt()
                 .max(length / (MAX_CELLS_PER_TRIANGLE * solid.triangles.len() as f64)),
+            compared: vec![0; solid.triangles.len()],
+            comparisons: 0,
             room,
             choices,
             work: 0,
@@ -248,6 +255,7 @@ impl<'a> Net<'a> {
         self.piece_of[facet as usize] = piece;
         let mut own = std::mem::take(&mut self.pieces[piece as usize]);
         own.facets.push(facet);
+        own.triangles += self.triangles[facet as usize].len();
         for triangle in &self.triangles[facet as usize] {
             for cell in self.cells(&self.placed(*triangle)) {
                 own.grid.entry(cell).or_default().push(*triangle);
@@ -264,6 +272,7 @@ impl<'a> Net<'a> {
             let piece = std::mem::replace(&mut self.piece_of[*facet as usize], NO_INDEX);
             touched.push(piece);
             let mut own = std::mem::take(&mut self.pieces[piece as usize]);
+            own.triangles -= self.triangles[*facet as usize].len();
             for triangle in &self.triangles[*facet as usize] {
                 for cell in self.cells(&self.placed(*triangle)) {
                     own.grid.entry(cell).or_default().retain(|t| t != triangle);
@@ -296,7 +305,7 @@ impl<'a> Net<'a> {
         if piece(from) == piece(to) {
             return;
         }
-        let size = |side: u32| self.pieces[piece(side) as usize].facets.len();
+        let size = |side: u32| self.pieces[piece(side) as usize].triangles;
         if size(from) > size(to) {
             std::mem::swap(&mut from, &mut to);
         }
@@ -316,17 +325,22 @@ impl<'a> Net<'a> {
 
     fn overlaps(&mut self, small: u32, large: u32, motion: &Motion) -> bool {
         let grid = &self.pieces[large as usize].grid;
-        let mut work = 0;
+        let mut compared = std::mem::take(&mut self.compared);
+        let (mut work, mut number) = (0, self.comparisons);
         let facets = self.pieces[small as usize].facets.iter();
         let mut triangles = facets.flat_map(|facet| &self.triangles[*facet as usize]);
         let found = triangles.any(|triangle| {
+            number += 1;
             let corners = self.placed(*triangle).map(|p| motion.apply(p));
             let near = self.cells(&corners).filter_map(|cell| grid.get(&cell));
             near.flatten().any(|other| {
                 work += 1;
-                overlap(&corners, &self.placed(*other), 2.0 * self.solid.rounding)
+                // Triangles that share many cells are compared once.
+                std::mem::replace(&mut compared[*other as usize], number) != number
+                    && overlap(&corners, &self.placed(*other), 2.0 * self.solid.rounding)
             })
         });
+        (self.compared, self.comparisons) = (compared, number);
         self.work += work;
         found
     }

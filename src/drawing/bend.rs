@@ -78,7 +78,7 @@ fn join_bends(sheet: &mut Sheet) {
         // The middle between the outermost lines.
         let own = || {
             all.iter()
-                .filter(|other| other.bend.is_some_and(|b| b.patch == bend.patch))
+                .filter(|other| other.bend.is_some_and(|b| b.number == bend.number))
         };
         let [from, to] = [fold.points[0], fold.points[fold.points.len() - 1]].map(|p| point(&p));
         let across = (to - from) / (to - from).norm() * Point::new(0.0, 1.0);

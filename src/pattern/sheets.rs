@@ -129,8 +129,8 @@ impl Fold {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Bend {
-    /// Number of the patch that bends.
-    pub patch: u32,
+    /// Number of the bend among those of its sheet, the same for all of its folds.
+    pub number: u32,
     /// Angle by which all folds of the bend turn together, in radians.
     pub angle: f64,
     /// Radius of the surface in the bend, in the surface's units; the mean one of a cone.

@@ -1,7 +1,5 @@
 //! Bends of a net: neighbouring narrow facets of a cylinder or cone, with the angle and the radius of the whole.
 
-use std::f64::consts::PI;
-
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::patches::FlatPatches;
@@ -9,8 +7,8 @@ use crate::math::planar::Point2;
 use crate::pattern::sheets::{Bend, Fold};
 use crate::scene::polyhedron::Polyhedron;
 
-/// Radius of each patch that is a bend: of the circle whose chords its facets are. Beside it the length of these chords for each radian
-/// that the bend turns.
+/// Radius of each bend, at the number of the facet that names it: of the circle whose chords its facets are. Beside it the length of
+/// these chords for each radian that the bend turns.
 pub(super) fn radii(solid: &Polyhedron, patches: &FlatPatches) -> Vec<Option<[f64; 2]>> {
     let facets = |side: u32| [side, solid.twins[side as usize]].map(|s| solid.facet(s));
     let mut lengths = vec![0.0; solid.normals.len()];
@@ -25,14 +23,14 @@ pub(super) fn radii(solid: &Polyhedron, patches: &FlatPatches) -> Vec<Option<[f6
     }
     // A facet of a bend has a line on either side.
     let width = |facet: u32| 2.0 * solid.areas[facet as usize] / lengths[facet as usize];
-    // Of each patch's inner lines the lengths, and the sums of these times the angles and times the mean widths of both sides.
-    let mut inner = vec![[0.0; 3]; patches.areas.len()];
+    // Of each bend's inner lines the lengths, and the sums of these times the angles and times the mean widths of both sides.
+    let mut inner = vec![[0.0; 3]; solid.normals.len()];
     for side in solid.inner_sides() {
         let [a, b] = facets(side);
-        if patches.of[a as usize] == patches.of[b as usize] {
+        if patches.bends[a as usize] == patches.bends[b as usize] {
             let (long, angle) = (solid.length(side), solid.angle(side).abs());
             let of_line = [1.0, angle, 0.5 * (width(a) + width(b))];
-            let sums = &mut inner[patches.of[a as usize] as usize];
+            let sums = &mut inner[patches.bends[a as usize] as usize];
             *sums = std::array::from_fn(|k| sums[k] + long * of_line[k]);
         }
     }
@@ -48,19 +46,16 @@ pub(super) fn radii(solid: &Polyhedron, patches: &FlatPatches) -> Vec<Option<[f6
         .collect()
 }
 
-/// Difference of a sum of fold angles from half a turn, in radians, that is rounding.
-const ROUNDING_ANGLE: f64 = 1e-3;
-
-/// Tells the folds of each bend of a sheet which bend that is; `bend_of` gives the patch of a fold's bend, with its
-/// radius and the length of its chords for each radian. What is rolled by more than half a turn is no bend.
+/// Tells the folds of each bend of a sheet which bend that is; `bend_of` gives the number of a fold's bend, with its
+/// radius and the length of its chords for each radian.
 pub(super) fn mark_bends(folds: &mut [Fold], bend_of: impl Fn(&Fold) -> Option<(u32, [f64; 2])>) {
     let mut of: FxHashMap<u32, ([f64; 2], Vec<usize>)> = FxHashMap::default();
     for (k, fold) in folds.iter().enumerate() {
-        if let Some((patch, radii)) = bend_of(fold) {
-            of.entry(patch).or_insert((radii, Vec::new())).1.push(k);
+        if let Some((number, radii)) = bend_of(fold) {
+            of.entry(number).or_insert((radii, Vec::new())).1.push(k);
         }
     }
-    for (patch, ([radius, chord_radius], mut own)) in of {
+    for (number, ([radius, chord_radius], mut own)) in of {
         let middle = |k: usize| {
             let points = &folds[k].points;
             let [from, to] = [points[0], points[points.len() - 1]].map(|[x, y]| Point2::new(x, y));
@@ -77,10 +72,6 @@ pub(super) fn mark_bends(folds: &mut [Fold], bend_of: impl Fn(&Fold) -> Option<(
         let mut seen = FxHashSet::default();
         lines.retain(|(crease, _)| seen.insert(*crease));
         let angle: f64 = lines.iter().map(|(_, angle)| angle).sum();
-        // A hem is a bend of half a turn.
-        if angle > PI + ROUNDING_ANGLE {
-            continue;
-        }
         let mut turned = 0.0;
         let past = lines.iter().find(|(_, own)| {
             turned += own;
@@ -90,7 +81,7 @@ pub(super) fn mark_bends(folds: &mut [Fold], bend_of: impl Fn(&Fold) -> Option<(
         for k in own {
             let is_middle = Some(folds[k].seam.crease) == central;
             folds[k].bend = Some(Bend {
-                patch,
+                number,
                 angle,
                 radius,
                 chord_radius,

@@ -10,13 +10,15 @@ use crate::scene::half_edges::half_edge_ends;
 use crate::scene::polyhedron::Polyhedron;
 
 /// Largest ratio of the curvatures of neighbouring facets of a bend. `benches/patterns.md` has what others give.
-const MAX_BEND_CURVATURE_RATIO: f64 = 3.0;
+pub(super) const MAX_BEND_CURVATURE_RATIO: f64 = 3.0;
 
 /// The patch of each facet: a facet alone, or neighbouring facets of one bend.
 pub(super) struct FlatPatches {
     pub of: Vec<u32>,
     /// Area of each patch.
     pub areas: Vec<f64>,
+    /// The bend that each facet is part of, by a facet of it: one or two patches. A facet alone is its own.
+    pub bends: Vec<u32>,
     /// The facets on both sides of each facet that is part of a bend, beyond the lines along which it is.
     bent: Vec<Option<[u32; 2]>>,
 }
@@ -80,6 +82,7 @@ impl FlatPatches {
                 .map(|f| numbers[halves.find(f) as usize])
                 .collect(),
             areas: order.iter().map(|root| sums[*root as usize]).collect(),
+            bends: (0..count as u32).map(|f| forest.find(f)).collect(),
             bent,
         })
     }

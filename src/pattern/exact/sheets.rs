@@ -7,6 +7,7 @@ use super::net::Net;
 use super::patches::FlatPatches;
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
+use crate::math::planar::{LeastBox, Point2};
 use crate::math::union_find::UnionFind;
 use crate::pattern::flat_mesh::FlatMesh;
 use crate::pattern::{Direction, Missing, Pattern, Seam, Sheet};
@@ -16,6 +17,7 @@ use crate::shape::patches::chains::chains;
 use crate::shape::patches::{Crease, Patch};
 
 pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Result<Pattern> {
+    let mut pieces = net.pieces();
     let mut flat = FlatMesh {
         places: &solid.places,
         triangles: &solid.triangles,
@@ -24,9 +26,7 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
         closed: (0..solid.twins.len() as u32)
             .map(|side| net.is_closed(side))
             .collect(),
-        flat: (0..solid.triangles.len() as u32)
-            .map(|t| net.placed(t))
-            .collect(),
+        flat: upright(solid, net, &pieces),
         patches: (solid.facets.iter())
             .map(|facet| patches.of[*facet as usize])
             .collect(),
@@ -40,12 +40,19 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
     let sides = 0..solid.twins.len() as u32;
     let spacing = sides.map(|side| solid.length(side)).sum::<f64>() / edges;
     let radii = radii(solid, patches);
-    // Folds along which bends go on or end.
-    let mut is_bend_line = vec![false; creases.len()];
+    // The bend that goes on or ends at each fold.
+    let mut bend_at: Vec<Option<u32>> = vec![None; creases.len()];
     for side in solid.inner_sides() {
         let [a, b] = [side, solid.twins[side as usize]].map(|s| solid.facet(s));
-        is_bend_line[flat.seam_of[side as usize] as usize] |=
-            patches.goes_on(a, b) || patches.goes_on(b, a);
+        let bends = [(a, b), (b, a)].map(|(own, other)| {
+            let bend = patches
+                .goes_on(own, other)
+                .then(|| patches.bends[own as usize]);
+            bend.filter(|bend| radii[*bend as usize].is_some())
+        });
+        let [first, second] = bends;
+        let found = &mut bend_at[flat.seam_of[side as usize] as usize];
+        *found = found.or(first).or(second);
     }
     let area = |facets: &[u32]| facets.iter().map(|f| solid.areas[*f as usize]).sum::<f64>();
     let sheet = |facets: &Vec<u32>| {
@@ -58,9 +65,8 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
         let members: Vec<u32> = members.map(|(t, _)| t).collect();
         let mut sheet = flat.sheet(&members, |_| 0.0);
         mark_bends(&mut sheet.folds, |fold| {
-            let beside = fold.seam.patches.into_iter();
-            let mut bent = beside.filter_map(|p| Some((p, radii[p as usize]?)));
-            bent.next().filter(|_| is_bend_line[fold.seam.crease])
+            let bend = bend_at[fold.seam.crease]?;
+            Some((bend, radii[bend as usize]?))
         });
         Sheet {
             spacing,
@@ -70,7 +76,6 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
         }
     };
     // Triangles without a width that nothing else joins are no sheet.
-    let mut pieces = net.pieces();
     pieces.retain(|facets| area(facets) > solid.rounding * spacing);
     let mut sheets: Vec<Sheet> = pieces.iter().map(sheet).collect();
     sheets.sort_by_key(|sheet| sheet.patches[0]);
@@ -85,6 +90,25 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
         creases,
         missing: Missing::default(),
     })
+}
+
+/// Positions of all triangles' corners in their pieces, each in the smallest box.
+fn upright(solid: &Polyhedron, net: &Net, pieces: &[Vec<u32>]) -> Vec<[Point2; 3]> {
+    let count = solid.triangles.len() as u32;
+    let mut flat: Vec<[Point2; 3]> = (0..count).map(|t| net.placed(t)).collect();
+    let mut own = vec![Vec::new(); solid.normals.len()];
+    for (t, facet) in solid.facets.iter().enumerate() {
+        own[*facet as usize].push(t);
+    }
+    for piece in pieces {
+        let members = || piece.iter().flat_map(|facet| &own[*facet as usize]);
+        let corners = members().flat_map(|t| flat[*t]).map(|p| [p.re, p.im]);
+        let [cos, sin] = LeastBox::turned_and_upright(corners.collect()).0.turn;
+        for t in members() {
+            flat[*t] = flat[*t].map(|p| p * Point2::new(cos, sin));
+        }
+    }
+    flat
 }
 
 /// Groups edges to creases: cuts that follow each other on both sides between the same patches, and folds along one line. Each

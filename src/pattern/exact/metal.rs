@@ -5,6 +5,7 @@ use nalgebra::Matrix3;
 use crate::error::Result;
 use crate::math::index::NO_INDEX;
 use crate::math::union_find::UnionFind;
+use crate::scene::half_edges::half_edge_ends;
 use crate::scene::mesh::Mesh;
 use crate::scene::polyhedron::{Place, Polyhedron};
 
@@ -80,10 +81,15 @@ pub fn sheet_metal(mesh: &Mesh) -> Result<Option<SheetMetal>> {
     let mut order: Vec<u32> = (0..skins.len() as u32).collect();
     order.sort_by(|a, b| skins[*b as usize].total_cmp(&skins[*a as usize]));
     let [large, small] = [0, 1].map(|k| order.get(k).map_or(0.0, |root| skins[*root as usize]));
-    // The rim has less area than either skin.
+    // The rim has less area than either skin, and goes around both alike: ribs and domes are on one of them only.
     let is_sheet =
         small >= whole - large - small && thickness <= MAX_THICKNESS_SHARE * large.sqrt();
     if !is_sheet {
+        return Ok(None);
+    }
+    let counts = [0, 1].map(|k| borders(&solid, |facet| sets.find(facet) == order[k]));
+    let [own, other] = counts;
+    if own? != other? {
         return Ok(None);
     }
     let own = (solid.triangles.iter().zip(&solid.facets))
@@ -95,6 +101,23 @@ pub fn sheet_metal(mesh: &Mesh) -> Result<Option<SheetMetal>> {
         thickness,
         skin: Mesh::new(places, own)?,
     }))
+}
+
+/// Number of the closed lines around some facets.
+fn borders(solid: &Polyhedron, mut is_own: impl FnMut(u32) -> bool) -> Result<usize> {
+    let mut lines = UnionFind::new("vertices", solid.places.len())?;
+    let mut on_border = Vec::new();
+    for (side, twin) in (0u32..).zip(&solid.twins) {
+        if is_own(solid.facet(side)) && !is_own(solid.facet(*twin)) {
+            let [a, b] = half_edge_ends(&solid.triangles, side);
+            lines.union(a, b);
+            on_border.push(a);
+        }
+    }
+    let mut found: Vec<u32> = on_border.into_iter().map(|v| lines.find(v)).collect();
+    found.sort_unstable();
+    found.dedup();
+    Ok(found.len())
 }
 
 /// Depth of the solid below the middle of each facet's largest triangle, where a parallel face ends it.

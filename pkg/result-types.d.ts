@@ -769,12 +769,14 @@ export interface MeshAnalysis {
 /**
  * What a mesh is, of what a fit gains.
  * - `'faces'`: Its faces are exact, as in CAD and low-poly models, or few, and are moved into the plane as they are.
+ * - `'bends'`: As `faces`, but some of its bends are triangulated irregularly, and are divided along their lines first.
  * - `'noisyFaces'`: Its vertices have noise about flat faces, as in scans of roofs and boxes; the faces are laid flat
  *   without it.
- * - `'surface'`: Its vertices have no noise, so that a fit gains nothing, but its bends are triangulated irregularly.
+ * - `'surface'`: Its vertices have no noise, so that a fit gains nothing, but it is no part of planes, cylinders and
+ *   cones.
  * - `'noisy'`: Its vertices have noise.
  */
-export type MeshKind = 'faces' | 'noisyFaces' | 'surface' | 'noisy';
+export type MeshKind = 'faces' | 'bends' | 'noisyFaces' | 'surface' | 'noisy';
 
 /** Figures of one pass of a mesh's fit: a linearisation of the energy, and the solve of its convex problem. */
 export interface MeshPass {

@@ -115,7 +115,7 @@ export class MeshFit extends Events {
   async pattern(surface, options, tell) {
     const mesh = this.mesh ?? surface;
     const { kind, thickness } = await this.recognized(mesh);
-    const isKnown = kind === 'noisyFaces' || (kind === 'faces' && this.lambda === 'auto');
+    const isKnown = kind === 'noisyFaces' || ((kind === 'faces' || kind === 'bends') && this.lambda === 'auto');
     const laidFlat = isKnown ? mesh : surface;
     const smooth = isKnown || surface.report.stopReason === 'noNoise' ? {} : { exact: false };
     // A solid of sheet metal has a thickness of its own.

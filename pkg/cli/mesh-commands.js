@@ -32,6 +32,13 @@ export async function whole(task, signal) {
   if (surface !== undefined) tell(task, surface, mesh);
 }
 
+/** What becomes of an exact mesh. */
+const TAKEN = {
+  faces: 'each of its faces is kept (--lambda auto removes noise first)',
+  bends: 'its bends are divided along their lines, and its other faces kept (--lambda auto removes noise first)',
+  surface: 'its vertices have no noise',
+};
+
 /**
  * Whether a mesh is taken as it is, which is said. Who gives λ asks for a fit.
  * @param {Task} task
@@ -46,7 +53,7 @@ async function isExact({ input, asIs, blank, lambda, recognized }, mesh) {
   if (kind === 'noisyFaces') {
     if (asIs) return false;
     say(`${input} looks like ${faces === 1 ? '1 flat face' : `${faces} flat faces`} with noise of ${Number(noise.toPrecision(2))} in the file's unit: the noise is removed (--as-is keeps it)`);
-  } else if (!asIs) say(`${input} is taken as it is: ${kind === 'faces' ? 'each of its faces is kept (--lambda auto removes noise first)' : 'its vertices have no noise'}`);
+  } else if (!asIs) say(`${input} is taken as it is: ${TAKEN[kind]}`);
   return true;
 }
 

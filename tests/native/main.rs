@@ -7,6 +7,8 @@ mod case;
 #[path = "../fixtures/check.rs"]
 mod check;
 
+#[cfg(feature = "patterns")]
+mod cad;
 mod camera;
 mod cleaning;
 mod clouds;

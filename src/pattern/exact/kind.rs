@@ -13,7 +13,7 @@ pub enum MeshKind {
     Faces,
     /// The vertices of the mesh have noise about flat faces.
     NoisyFaces(FoundFaces),
-    /// The vertices of the mesh are exact, and lie on flat faces and bends that are parts of cylinders.
+    /// The vertices of the mesh are exact, and lie on flat faces and bends that are parts of cylinders and circular cones.
     Bends(FoundFaces),
     /// The vertices of the mesh are exact, those of a smooth surface.
     Surface,
@@ -28,16 +28,24 @@ impl MeshKind {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn of(mesh: &Mesh) -> Result<MeshKind> {
         let exactness = Exactness::of(mesh);
-        let found = match exactness {
-            Exactness::Faces => return Ok(MeshKind::Faces),
-            Exactness::Vertices => rolled_faces(mesh).map(MeshKind::Bends),
-            Exactness::None => noisy_faces(mesh)?.map(MeshKind::NoisyFaces),
+        if exactness == Exactness::None
+            && let Some(found) = noisy_faces(mesh)?
+        {
+            return Ok(MeshKind::NoisyFaces(found));
+        }
+        let known = match has_few_faces(mesh) {
+            true => Exactness::Faces,
+            false => exactness,
         };
-        Ok(match (found, exactness) {
-            (Some(kind), _) => kind,
-            _ if has_few_faces(mesh) => MeshKind::Faces,
+        let rolled = match known {
+            Exactness::None => None,
+            _ => rolled_faces(mesh, known),
+        };
+        Ok(match (rolled, known) {
+            (Some(found), _) => MeshKind::Bends(found),
+            (None, Exactness::Faces) => MeshKind::Faces,
             (None, Exactness::Vertices) => MeshKind::Surface,
-            _ => MeshKind::Noisy,
+            (None, Exactness::None) => MeshKind::Noisy,
         })
     }
 }

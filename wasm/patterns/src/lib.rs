@@ -273,9 +273,11 @@ struct RecognizedOutput {
 enum RecognizedKind {
     /// Its faces are exact, as in CAD and low-poly models, or few, and are moved into the plane as they are.
     Faces,
+    /// As `faces`, but some of its bends are triangulated irregularly, and are divided along their lines first.
+    Bends,
     /// Its vertices have noise about flat faces, as in scans of roofs and boxes; the faces are laid flat without it.
     NoisyFaces,
-    /// Its vertices have no noise, so that a fit gains nothing, but its bends are triangulated irregularly.
+    /// Its vertices have no noise, so that a fit gains nothing, but it is no part of planes, cylinders and cones.
     Surface,
     /// Its vertices have noise.
     #[default]
@@ -288,15 +290,18 @@ pub fn recognize_mesh(mesh: JsValue) -> Result<JsValue> {
     let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
     let mut found = RecognizedOutput::default();
     match MeshKind::of(&mesh)? {
-        MeshKind::Faces => {
-            found.kind = RecognizedKind::Faces;
+        kind @ (MeshKind::Faces | MeshKind::Bends(_)) => {
+            found.kind = match kind {
+                MeshKind::Faces => RecognizedKind::Faces,
+                _ => RecognizedKind::Bends,
+            };
             found.thickness = sheet_metal(&mesh)?.map(|metal| metal.thickness);
         }
         MeshKind::NoisyFaces(faces) => {
             found.kind = RecognizedKind::NoisyFaces;
             (found.faces, found.noise) = (Some(faces.count), Some(faces.noise));
         }
-        MeshKind::Surface | MeshKind::Bends(_) => found.kind = RecognizedKind::Surface,
+        MeshKind::Surface => found.kind = RecognizedKind::Surface,
         MeshKind::Noisy => {}
     }
     Ok(to_value(&found)?)

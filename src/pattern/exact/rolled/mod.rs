@@ -1,0 +1,302 @@
+//! Bends that are parts of cylinders and circular cones, however they are triangulated: divided into strips along their rulings, and
+//! rolled off.
+
+mod cone;
+mod division;
+mod roll;
+
+use std::f64::consts::PI;
+
+use rustc_hash::FxHashSet;
+
+use super::FoundFaces;
+use super::growth::grow;
+use crate::math::index::NO_INDEX;
+use crate::scene::exactness::Exactness;
+use crate::scene::half_edges::twin_half_edges;
+use crate::scene::mesh::Mesh;
+use crate::scene::polyhedron::{Place, Polyhedron};
+use cone::Cone;
+use division::Division;
+use roll::{MAX_DISTANCE_ROUNDINGS, Roll};
+
+/// Number of neighbouring facets from which a cylinder is found. `benches/patterns.md` has what others give.
+const SEED_FACETS: usize = 8;
+
+/// Maximum area of a slender facet, as a share of the square of its longest side. `benches/patterns.md` has what others give.
+const MAX_SLENDER_SHARE: f64 = 0.05;
+
+/// Finds the bends of a mesh without noise that are parts of cylinders and circular cones and not divided along their rulings, and divides
+/// them so; all other faces are those of the mesh. `None` if there are none, and where faces are known only as parts of bends:
+/// then each has to be on one, or next to it.
+///
+/// Costs `O(triangles)` for each bend.
+pub fn rolled_faces(mesh: &Mesh, exactness: Exactness) -> Option<FoundFaces> {
+    let solid = Polyhedron::new(mesh).ok()?;
+    // What is drawn on faces, and edges of more than two of them, are not divided.
+    if !solid.textured.is_empty() || solid.twins != twin_half_edges(&solid.triangles) {
+        return None;
+    }
+    let rolls = Search::new(&solid).rolls();
+    if exactness != Exactness::Faces && !are_all_known(&solid, &rolls) {
+        return None;
+    }
+    let mut divided = Division::new(&solid);
+    let wrong: Vec<bool> = (rolls.iter().filter(|roll| !roll.is_divided(&solid)))
+        .map(|roll| divided.divide(roll).is_none())
+        .collect();
+    if wrong.is_empty() || wrong.contains(&true) {
+        return None;
+    }
+    let solid = divided.into_polyhedron();
+    Some(FoundFaces {
+        count: solid.normals.len(),
+        noise: 0.0,
+        solid,
+    })
+}
+
+/// Whether bends end at their faces, or at lines along them, and there are no others.
+fn are_all_known(solid: &Polyhedron, rolls: &[Roll]) -> bool {
+    let mut roll_of = vec![None; solid.normals.len()];
+    for (k, roll) in rolls.iter().enumerate() {
+        for facet in &roll.facets {
+            if roll_of[*facet as usize].replace(k).is_some() {
+                return false;
+            }
+        }
+    }
+    solid.inner_sides().all(|side| {
+        let facets = [side, solid.twins[side as usize]].map(|s| solid.facet(s));
+        let ends_at = |k: usize, facet: u32| {
+            rolls[k].is_along(solid, side) || rolls[k].faces.iter().any(|(face, _)| *face == facet)
+        };
+        match facets.map(|facet| roll_of[facet as usize]) {
+            [None, None] => !solid.is_step(side),
+            [Some(k), None] => ends_at(k, facets[1]),
+            [None, Some(k)] => ends_at(k, facets[0]),
+            [Some(j), Some(k)] => j == k,
+        }
+    })
+}
+
+struct Search<'a> {
+    solid: &'a Polyhedron,
+    triangles: Vec<Vec<u32>>,
+    /// Facets that each facet meets at a small angle, or at any if they are so slender that they face no side.
+    around: Vec<Vec<u32>>,
+    is_slender: Vec<bool>,
+}
+
+impl Search<'_> {
+    fn new(solid: &Polyhedron) -> Search<'_> {
+        let mut triangles = vec![Vec::new(); solid.normals.len()];
+        for (t, facet) in (0u32..).zip(&solid.facets) {
+            triangles[*facet as usize].push(t);
+        }
+        let is_slender = |(own, area): (&Vec<u32>, &f64)| {
+            let sides = own.iter().flat_map(|t| 3 * t..3 * t + 3);
+            let longest = sides.map(|side| solid.length(side)).fold(0.0, f64::max);
+            *area < MAX_SLENDER_SHARE * longest * longest
+        };
+        let is_slender: Vec<bool> = triangles.iter().zip(&solid.areas).map(is_slender).collect();
+        let mut around = vec![Vec::new(); solid.normals.len()];
+        for side in solid.inner_sides() {
+            let twin = solid.twins[side as usize];
+            let [a, b] = [side, twin].map(|s| solid.facet(s));
+            for (own, other) in [(a, b), (b, a)] {
+                if solid.is_step(side) || is_slender[other as usize] {
+                    around[own as usize].push(other);
+                }
+            }
+        }
+        Search {
+            solid,
+            triangles,
+            around,
+            is_slender,
+        }
+    }
+
+    /// All bends.
+    fn rolls(&self) -> Vec<Roll> {
+        let mut rolls: Vec<Roll> = Vec::new();
+        let mut is_tried = vec![false; self.around.len()];
+        for seed in 0..self.around.len() as u32 {
+            // A rim leads to its slender facets, and they do not lead to it.
+            let own = &self.around[seed as usize];
+            let goes_on = |other: &u32| self.around[*other as usize].contains(&seed);
+            if is_tried[seed as usize] || !own.iter().any(goes_on) {
+                continue;
+            }
+            let is_free = |facet: u32| !is_tried[facet as usize];
+            let near = grow(&self.around, seed, |near, facet| {
+                near.len() < SEED_FACETS && is_free(facet)
+            });
+            if near.len() < SEED_FACETS {
+                continue;
+            }
+            let found = [false, true].iter().find_map(|is_conical| {
+                let (surface, facets) = self.surface(near.clone(), *is_conical)?;
+                Some(self.roll(surface, facets))
+            });
+            if let Some(roll) = found {
+                (roll.facets.iter()).for_each(|facet| is_tried[*facet as usize] = true);
+                rolls.push(roll);
+            }
+        }
+        rolls
+    }
+
+    /// Adds to the facets on a surface those that go over into faces, each corner of which is on the surface or such a face.
+    fn roll(&self, surface: Cone, on: Vec<u32>) -> Roll {
+        let solid = self.solid;
+        let near = MAX_DISTANCE_ROUNDINGS * solid.rounding;
+        let outward = |facet: &u32| {
+            let normal = &solid.normals[*facet as usize];
+            let [angle, ..] = surface.coordinates(&self.points(&[*facet])[0]);
+            surface.normal(angle).dot(normal) * solid.areas[*facet as usize]
+        };
+        let mut roll = Roll {
+            side: on.iter().map(outward).sum::<f64>().signum(),
+            surface,
+            facets: FxHashSet::from_iter(on.iter().copied()),
+            triangles: Vec::new(),
+            faces: Vec::new(),
+            is_ring: false,
+        };
+        let (mut open, mut beside) = (on, Vec::new());
+        let mut seen = roll.facets.clone();
+        loop {
+            while let Some(facet) = open.pop() {
+                for other in &self.around[facet as usize] {
+                    if seen.insert(*other) {
+                        match self.touches(&roll, *other) {
+                            Some(angle) => roll.faces.push((*other, angle)),
+                            None => beside.push(*other),
+                        }
+                    }
+                }
+            }
+            // A face may be beside such a facet only, and beyond slivers.
+            let mut next = 0;
+            while let Some(facet) = beside.get(next).copied() {
+                next += 1;
+                let points = self.points(&[facet]);
+                let is_on = |p: &Place| roll.surface.coordinates(p)[2].abs() <= near;
+                let leads_on = self.is_slender[facet as usize] || points.iter().any(is_on);
+                for other in &self.around[facet as usize] {
+                    match self.touches(&roll, *other) {
+                        _ if seen.contains(other) => {}
+                        Some(angle) => {
+                            seen.insert(*other);
+                            roll.faces.push((*other, angle));
+                        }
+                        None if leads_on => {
+                            seen.insert(*other);
+                            beside.push(*other);
+                        }
+                        None => {}
+                    }
+                }
+            }
+            let is_in = |facet: &u32| {
+                let mut points = self.points(&[*facet]).into_iter();
+                points.all(|p| roll.coordinates(&p, solid, near).is_some())
+            };
+            (open, beside) = beside.into_iter().partition(is_in);
+            if open.is_empty() {
+                break;
+            }
+            roll.facets.extend(&open);
+        }
+        roll.triangles = self.triangles_of(&roll);
+        let crosses = |t: &usize| {
+            let all = solid.corners(*t).map(|p| roll.surface.coordinates(&p));
+            let on: Vec<f64> = (all.iter().filter(|[.., off]| off.abs() <= near))
+                .map(|[angle, ..]| *angle)
+                .collect();
+            on.iter().any(|a| (a - on[0]).abs() > PI)
+        };
+        roll.is_ring = roll.triangles.iter().any(crosses);
+        roll
+    }
+
+    /// The angle at which a face touches a surface: where its normal is the surface's.
+    fn touches(&self, roll: &Roll, facet: u32) -> Option<f64> {
+        let near = MAX_DISTANCE_ROUNDINGS * self.solid.rounding;
+        let normal = self.solid.normals[facet as usize] * roll.side;
+        let angle = roll.surface.angle(&normal);
+        let line = roll.surface.place([angle, 0.0]);
+        let all = self.points(&[facet]);
+        let off = (all.iter())
+            .map(|p| normal.dot(&(p - line)).abs())
+            .fold(0.0, f64::max);
+        let along = normal.dot(&roll.surface.ruling(angle)).abs();
+        // A face may hold triangles that begin to bend.
+        (off <= 4.0 * near && along * all[0].metric_distance(&line) <= near).then_some(angle)
+    }
+
+    /// The triangles of the facets of a bend, and of its faces those that begin to bend.
+    fn triangles_of(&self, roll: &Roll) -> Vec<usize> {
+        let solid = self.solid;
+        let near = MAX_DISTANCE_ROUNDINGS * solid.rounding;
+        let own = (0..solid.triangles.len()).filter(|t| roll.facets.contains(&solid.facets[*t]));
+        let mut triangles: Vec<usize> = own.collect();
+        let mut seen: FxHashSet<usize> = triangles.iter().copied().collect();
+        let mut next = 0;
+        while let Some(t) = triangles.get(next).copied() {
+            next += 1;
+            let twins = &solid.twins[3 * t..3 * t + 3];
+            for twin in twins.iter().filter(|twin| **twin != NO_INDEX) {
+                let other = *twin as usize / 3;
+                let mut faces = roll.faces.iter().map(|(face, _)| *face);
+                let begins = |p: &Place| roll.begins_at(p, near);
+                if faces.any(|face| face == solid.facets[other])
+                    && solid.corners(other).iter().any(begins)
+                    && seen.insert(other)
+                {
+                    triangles.push(other);
+                }
+            }
+        }
+        triangles
+    }
+
+    fn points(&self, facets: &[u32]) -> Vec<Place> {
+        let triangles = facets
+            .iter()
+            .flat_map(|facet| &self.triangles[*facet as usize]);
+        triangles
+            .flat_map(|t| self.solid.corners(*t as usize))
+            .collect()
+    }
+
+    /// The surface that some facets lie on, and all facets on it around them.
+    fn surface(&self, mut facets: Vec<u32>, is_conical: bool) -> Option<(Cone, Vec<u32>)> {
+        let near = MAX_DISTANCE_ROUNDINGS * self.solid.rounding;
+        loop {
+            let points = self.points(&facets);
+            let normal = |facet: &u32| {
+                self.solid.normals[*facet as usize] * self.solid.areas[*facet as usize]
+            };
+            let normals: Vec<Place> = facets.iter().map(normal).collect();
+            let surface = Cone::fit(&points, &normals, is_conical)?;
+            let is_on = |points: &[Place]| {
+                points
+                    .iter()
+                    .all(|p| surface.coordinates(p)[2].abs() <= near)
+            };
+            if !is_on(&points) {
+                return None;
+            }
+            let all = grow(&self.around, facets[0], |_, facet| {
+                is_on(&self.points(&[facet]))
+            });
+            if all.len() <= facets.len() {
+                return Some((surface, facets));
+            }
+            facets = all;
+        }
+    }
+}

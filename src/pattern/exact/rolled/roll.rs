@@ -1,0 +1,70 @@
+//! A bend of a mesh: the facets on one cylinder or cone.
+
+use rustc_hash::FxHashSet;
+
+use super::cone::Cone;
+use crate::scene::polyhedron::{Place, Polyhedron};
+
+/// Distance from a cylinder, in units of the rounding, within which a point lies on it. `benches/patterns.md` has what others give.
+pub(super) const MAX_DISTANCE_ROUNDINGS: f64 = 4.0;
+
+/// A bend: its surface, the facets on it, those that lie partly on it and partly in a face that it goes over into, and the faces,
+/// each with the angle at which it touches the surface.
+pub(super) struct Roll {
+    pub surface: Cone,
+    pub facets: FxHashSet<u32>,
+    /// Triangles of the facets, and of the faces those that begin to bend.
+    pub triangles: Vec<usize>,
+    pub faces: Vec<(u32, f64)>,
+    /// 1 if the facets are seen from outside of the surface, −1 from inside.
+    pub side: f64,
+    /// Whether the facets go all around the axis.
+    pub is_ring: bool,
+}
+
+impl Roll {
+    /// Whether an edge lies along a ruling.
+    pub(super) fn is_along(&self, solid: &Polyhedron, side: u32) -> bool {
+        let [a, b] = solid.ends(side);
+        let middle = self.surface.coordinates(&(0.5 * (a + b)))[0];
+        let off = (b - a).cross(&self.surface.ruling(middle)).norm();
+        off <= MAX_DISTANCE_ROUNDINGS * solid.rounding
+    }
+
+    /// Whether its facets are strips along its rulings already.
+    pub(super) fn is_divided(&self, solid: &Polyhedron) -> bool {
+        let own = |side: u32| self.facets.contains(&solid.facet(side));
+        let mut lines = solid
+            .inner_sides()
+            .filter(|side| own(*side) && own(solid.twins[*side as usize]));
+        lines.all(|side| self.is_along(solid, side))
+    }
+
+    /// Whether a point lies on the surface beyond the line at which a face touches it.
+    pub(super) fn begins_at(&self, place: &Place, near: f64) -> bool {
+        let [angle, _, off] = self.surface.coordinates(place);
+        let mut touches = self.faces.iter().map(|(_, touch)| *touch);
+        // Angles are counted from the middle.
+        let is_beyond = |touch: f64| (touch - angle) * touch.signum() * self.surface.radius > near;
+        off.abs() <= near && touches.all(is_beyond)
+    }
+
+    /// Angle and height of a point, as if faces that touch the surface were rolled onto it; `None` if it is on neither.
+    pub(super) fn coordinates(
+        &self,
+        place: &Place,
+        solid: &Polyhedron,
+        near: f64,
+    ) -> Option<[f64; 2]> {
+        let [angle, high, off] = self.surface.coordinates(place);
+        if off.abs() <= near {
+            return Some([angle, high]);
+        }
+        let mut found = self.faces.iter().filter_map(|(face, touch)| {
+            let from = place - self.surface.place([*touch, 0.0]);
+            let is_in = solid.normals[*face as usize].dot(&from).abs() <= near;
+            is_in.then(|| self.surface.rolled(*touch, from))
+        });
+        found.next()
+    }
+}

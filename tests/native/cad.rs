@@ -1,0 +1,311 @@
+//! Parts as programs of CAD triangulate them, laid flat: lengths, areas and bends by closed forms.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use developable::drawing::{Bending, Drawing, DrawingOptions};
+use developable::pattern::{MeshKind, NetOptions, Pattern, pattern_exact, sheet_metal};
+use developable::{Exactness, Mesh};
+
+/// The pattern of a mesh whose kind is recognised, and whether bends of it were divided.
+fn pattern_of(mesh: &Mesh) -> (Pattern, bool) {
+    match MeshKind::of(mesh).unwrap() {
+        MeshKind::Faces => (pattern_exact(mesh, &NetOptions::default()).unwrap(), false),
+        MeshKind::Bends(faces) => (faces.pattern(&NetOptions::default()).unwrap(), true),
+        _ => panic!("a part has exact faces"),
+    }
+}
+
+/// The bends of all sheets: number of folds, angle and radius of each.
+fn bends_of(pattern: &Pattern) -> Vec<(usize, f64, f64)> {
+    let mut found: Vec<(usize, f64, f64)> = Vec::new();
+    for sheet in &pattern.sheets {
+        let mut numbers: Vec<u32> = Vec::new();
+        for bend in sheet.folds.iter().filter_map(|fold| fold.bend) {
+            if !numbers.contains(&bend.number) {
+                numbers.push(bend.number);
+                let own = |other: &&developable::pattern::Fold| {
+                    other.bend.is_some_and(|b| b.number == bend.number)
+                };
+                found.push((
+                    sheet.folds.iter().filter(own).count(),
+                    bend.angle,
+                    bend.radius,
+                ));
+            }
+        }
+    }
+    found
+}
+
+/// A part turned about an axis: rows of vertices on circles, each with its height, radius and number, joined by triangles in the order
+/// of their angles, and closed by discs. A row of radius 0 is a tip.
+fn turned(rows: &[(f64, f64, u32)]) -> Mesh {
+    let mut points = Vec::new();
+    let mut rings: Vec<(u32, u32)> = Vec::new();
+    for &(height, radius, count) in rows {
+        let count = if radius == 0.0 { 1 } else { count };
+        rings.push((points.len() as u32, count));
+        // Each row begins at another angle.
+        let start = 0.1 * rings.len() as f64;
+        points.extend((0..count).map(|k| {
+            let angle = start + TAU * f64::from(k) / f64::from(count);
+            [radius * angle.cos(), radius * angle.sin(), height]
+        }));
+    }
+    let mut triangles = Vec::new();
+    for (k, pair) in rings.windows(2).enumerate() {
+        let [(a, m), (b, n)] = [pair[0], pair[1]];
+        let [low, high] = [0.1 * (k + 1) as f64, 0.1 * (k + 2) as f64];
+        let (mut i, mut j) = (0, 0);
+        while i < m || j < n {
+            let next = |start: f64, k: u32, of: u32| start + TAU * f64::from(k + 1) / f64::from(of);
+            let is_lower = j == n || (i < m && next(low, i, m) < next(high, j, n));
+            let (p, q) = (a + i % m, b + j % n);
+            if is_lower && m > 1 {
+                triangles.push([p, a + (i + 1) % m, q]);
+            } else if !is_lower && n > 1 {
+                triangles.push([p, b + (j + 1) % n, q]);
+            }
+            (i, j) = if is_lower { (i + 1, j) } else { (i, j + 1) };
+        }
+    }
+    let mut disc = |(first, count): (u32, u32), is_top: bool| {
+        triangles.extend((1..count.max(2) - 1).map(|k| match is_top {
+            true => [first, first + k, first + k + 1],
+            false => [first, first + k + 1, first + k],
+        }));
+    };
+    disc(rings[0], false);
+    disc(rings[rings.len() - 1], true);
+    Mesh::new(points, triangles).unwrap()
+}
+
+fn disc_area(radius: f64, sides: u32) -> f64 {
+    let half = PI / f64::from(sides);
+    0.5 * radius * radius * f64::from(sides) * (2.0 * half).sin()
+}
+
+/// The sectors of cones with rows of vertices that do not stand above each other, as kernels of CAD put them inside of curved faces.
+#[test]
+fn cones_in_any_triangles_are_sectors_with_their_discs() {
+    let rows = |low: f64, high: f64, sides: u32| {
+        let row = |k: u32| {
+            let share = f64::from(k) / 4.0;
+            let count = if k == 0 || k == 4 { 63 } else { sides };
+            (40.0 * share, low + (high - low) * share, count)
+        };
+        (0..=4).map(row).collect::<Vec<_>>()
+    };
+    for (low, high, sides) in [
+        (25.0, 0.0, 32),
+        (30.0, 12.0, 32),
+        (12.0, 30.0, 20),
+        (20.0, 20.0, 32),
+    ] {
+        let mesh = turned(&rows(low, high, sides));
+        let (pattern, is_divided) = pattern_of(&mesh);
+        assert!(is_divided, "{low} {high}");
+        assert_eq!(pattern.sheets.len(), 1, "{low} {high}");
+        let side = (low - high).hypot(40.0);
+        let discs = [low, high].map(|radius| disc_area(radius, 63));
+        let area = PI * (low + high) * side + discs[0] + discs[1];
+        let found: f64 = pattern.sheets.iter().map(|sheet| sheet.area).sum();
+        // The rim of a sector is a polygon, that of a cylinder is straight.
+        let tolerance = if low == high { 1e-6 } else { 1e-3 };
+        assert!(
+            (found - area).abs() < tolerance * area,
+            "{low} {high}: {found} {area}"
+        );
+        let [(_, angle, _)] = bends_of(&pattern)[..] else {
+            panic!("{low} {high}: {:?}", bends_of(&pattern));
+        };
+        // All around, less the line along which it is cut.
+        let around = TAU * 40.0 / side;
+        assert!(angle < around && angle > 0.94 * around, "{angle} {around}");
+    }
+}
+
+#[test]
+fn balls_are_no_cones() {
+    let row = |k: u32| {
+        let angle = PI * (f64::from(k) / 12.0 - 0.5);
+        let radius = if k == 0 || k == 12 {
+            0.0
+        } else {
+            20.0 * angle.cos()
+        };
+        (20.0 * angle.sin(), radius, 24 + 5 * (k % 3))
+    };
+    let mesh = turned(&(0..=12).map(row).collect::<Vec<_>>());
+    assert!(!matches!(MeshKind::of(&mesh).unwrap(), MeshKind::Bends(_)));
+}
+
+/// The solid of a strip of metal with these flat lengths between bends of a right angle, alternating to either side, in `steps` facets
+/// each, with coordinates in single precision.
+fn strip(flats: &[f64], inner: f64, thickness: f64, width: f64, steps: u32) -> Mesh {
+    let (mut at, mut turn) = ([0.0, 0.0], 0.0f64);
+    let mut skins: [Vec<[f64; 2]>; 2] = Default::default();
+    let mut put = |[x, z]: [f64; 2], turn: f64| {
+        for (skin, away) in [0.0, thickness].into_iter().enumerate() {
+            skins[skin].push([x - away * turn.sin(), z + away * turn.cos()]);
+        }
+    };
+    put(at, turn);
+    for (k, flat) in flats.iter().enumerate() {
+        at = [at[0] + flat * turn.cos(), at[1] + flat * turn.sin()];
+        put(at, turn);
+        if k + 1 == flats.len() {
+            break;
+        }
+        // Around a centre above the strip or below it.
+        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+        let radius = if sign > 0.0 { inner + thickness } else { inner };
+        let centre = [
+            at[0] - sign * radius * turn.sin(),
+            at[1] + sign * radius * turn.cos(),
+        ];
+        for _ in 0..steps {
+            turn += sign * FRAC_PI_2 / f64::from(steps);
+            at = [
+                centre[0] + sign * radius * turn.sin(),
+                centre[1] - sign * radius * turn.cos(),
+            ];
+            put(at, turn);
+        }
+    }
+    let n = skins[0].len() as u32;
+    let mut points = Vec::new();
+    for y in [0.0, width] {
+        points.extend(
+            skins
+                .iter()
+                .flatten()
+                .map(|[x, z]| [*x, y, *z].map(|v| f64::from(v as f32))),
+        );
+    }
+    let far = 2 * n;
+    let mut triangles = Vec::new();
+    let mut quad = |[a, b, c, d]: [u32; 4]| triangles.extend([[a, b, c], [a, c, d]]);
+    for i in 0..n - 1 {
+        quad([i, far + i, far + i + 1, i + 1]);
+        quad([n + i, n + i + 1, far + n + i + 1, far + n + i]);
+        quad([i, i + 1, n + i + 1, n + i]);
+        quad([far + i, far + n + i, far + n + i + 1, far + i + 1]);
+    }
+    quad([0, n, far + n, far]);
+    quad([n - 1, far + n - 1, far + 2 * n - 1, 2 * n - 1]);
+    Mesh::new(points, triangles).unwrap()
+}
+
+/// Facets of a bend are hundreds of times as long as wide, and what is rounding at one end is far off at the other.
+#[test]
+fn bends_in_slender_facets_are_whole() {
+    for steps in [4, 16, 64] {
+        let solid = strip(&[20.0, 15.0, 30.0, 15.0, 20.0], 2.0, 1.5, 80.0, steps);
+        let metal = sheet_metal(&solid).unwrap().expect("sheet metal");
+        assert!((metal.thickness - 1.5).abs() < 1e-5);
+        let pattern = pattern_exact(&metal.skin, &NetOptions::default()).unwrap();
+        let bends = bends_of(&pattern);
+        assert_eq!(bends.len(), 4, "{steps}: {bends:?}");
+        for (folds, angle, radius) in bends {
+            assert_eq!(folds, steps as usize + 1);
+            assert!((angle - FRAC_PI_2).abs() < 1e-4, "{angle}");
+            assert!(
+                [2.0, 3.5].iter().any(|r| (radius - r).abs() < 0.01 * r),
+                "{radius}"
+            );
+        }
+        let options = DrawingOptions::default().bending(Bending::new(1.5).k_factor(0.5));
+        let drawing = Drawing::new(&pattern.sheets, &options).unwrap();
+        let [blank] = &drawing.sheets[..] else {
+            panic!("{} sheets", drawing.sheets.len());
+        };
+        // The blank stands upright: four bend lines across it, each on one height or one side.
+        assert_eq!(blank.folds.len(), 4);
+        for line in &blank.folds {
+            let [from, to] = [line.points[0], line.points[line.points.len() - 1]];
+            let off = [0, 1].map(|k: usize| f64::abs(to[k] - from[k]));
+            assert!(off[0].min(off[1]) < 1e-4, "{from:?} {to:?}");
+        }
+        let [low, high] = blank.bounds;
+        let long = 100.0 + 4.0 * FRAC_PI_2 * 2.75;
+        let found = f64::max(high[0] - low[0], high[1] - low[1]);
+        // Chords of few facets are shorter than their arc by less than a hundredth.
+        assert!((found - long).abs() < 0.01, "{steps}: {found} {long}");
+    }
+}
+
+#[test]
+fn a_tube_is_one_bend_all_around() {
+    // Rows of vertices above each other are strips already; others are divided at the vertices of both rims.
+    let side = |points: &[[f64; 3]]| {
+        let k = |v: usize| (v % 40) as u32;
+        let quads = (0..40).map(|i| [k(i), k(i + 1), 40 + k(i + 1), 40 + k(i)]);
+        let triangles = quads.flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
+        Mesh::new(points.to_vec(), triangles.collect()).unwrap()
+    };
+    let circle = |k: u32, start: f64, high: f64| {
+        let angle = start + TAU * f64::from(k) / 40.0;
+        [20.0 * angle.cos(), 20.0 * angle.sin(), high]
+    };
+    for (start, lines) in [(0.0, 40), (0.06, 80)] {
+        let points: Vec<[f64; 3]> = (0..40)
+            .map(|k| circle(k, 0.0, 0.0))
+            .chain((0..40).map(|k| circle(k, start, 50.0)))
+            .collect();
+        let (pattern, is_divided) = pattern_of(&side(&points));
+        assert_eq!(is_divided, start > 0.0);
+        let bends = bends_of(&pattern);
+        let [(folds, angle, radius)] = bends[..] else {
+            panic!("{bends:?}");
+        };
+        assert_eq!(folds, lines - 1);
+        assert!(
+            angle > TAU * 38.0 / 40.0 && angle < TAU && (radius - 20.0).abs() < 0.5,
+            "{angle} {radius}"
+        );
+    }
+}
+
+/// A rib stands on one skin only.
+#[test]
+fn an_angle_with_a_rib_is_no_sheet_metal() {
+    let profile = [
+        [0.0, 0.0],
+        [60.0, 0.0],
+        [60.0, 4.0],
+        [4.0, 4.0],
+        [4.0, 50.0],
+        [0.0, 50.0],
+    ];
+    let (mut points, mut triangles) = (Vec::new(), Vec::new());
+    for y in [-20.0, 20.0] {
+        points.extend(profile.map(|[x, z]| [x, y, z]));
+    }
+    for y in [-2.0, 2.0] {
+        points.extend([[4.0, y, 4.0], [40.0, y, 4.0], [4.0, y, 40.0]]);
+    }
+    let mut polygon = |corners: &[u32]| {
+        triangles.extend((1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]]));
+    };
+    polygon(&[0, 1, 2, 3]);
+    polygon(&[0, 3, 4, 5]);
+    polygon(&[9, 8, 7, 6]);
+    polygon(&[11, 10, 9, 6]);
+    for (k, next) in [(0, 1), (1, 2), (4, 5), (5, 0)] {
+        polygon(&[next, k, k + 6, next + 6]);
+    }
+    // The inner faces around the rib's foot.
+    polygon(&[2, 8, 16, 13]);
+    polygon(&[2, 13, 12, 3]);
+    polygon(&[8, 9, 15, 16]);
+    polygon(&[3, 12, 14, 4]);
+    polygon(&[4, 14, 17, 10]);
+    polygon(&[10, 17, 15, 9]);
+    polygon(&[12, 13, 14]);
+    polygon(&[15, 17, 16]);
+    polygon(&[13, 16, 17, 14]);
+    let mesh = Mesh::new(points, triangles).unwrap();
+    assert_eq!(Exactness::of(&mesh), Exactness::Faces);
+    assert!(sheet_metal(&mesh).unwrap().is_none());
+}

@@ -30,7 +30,6 @@ struct Corners<'a> {
     roll: &'a Roll,
     /// Angle and height of each vertex; no angle at a tip.
     at: FxHashMap<u32, (Option<f64>, f64)>,
-    is_ring: bool,
 }
 
 impl Corners<'_> {
@@ -38,7 +37,7 @@ impl Corners<'_> {
     fn of(&self, corners: [u32; 3]) -> [[f64; 2]; 3] {
         let all = corners.map(|v| self.at[&v]);
         let base = all.iter().find_map(|(angle, _)| *angle).unwrap_or(0.0);
-        let near = |angle: f64| match self.is_ring {
+        let near = |angle: f64| match self.roll.is_ring {
             true => angle - TAU * ((angle - base) / TAU).round(),
             false => angle,
         };
@@ -75,7 +74,6 @@ impl<'a> Division<'a> {
         let mut corners = Corners {
             roll,
             at: FxHashMap::default(),
-            is_ring: roll.is_ring,
         };
         for v in roll.triangles.iter().flat_map(|t| solid.triangles[*t]) {
             let place = solid.places[v as usize];

@@ -32,7 +32,7 @@ export async function whole(task, signal) {
   if (surface !== undefined) tell(task, surface, mesh);
 }
 
-/** What becomes of an exact mesh. */
+/** What the command says is done with an exact mesh, by its kind. */
 const TAKEN = {
   faces: 'each of its faces is kept (--lambda auto removes noise first)',
   bends: 'its bends are divided along their lines, and its other faces kept (--lambda auto removes noise first)',

@@ -129,7 +129,7 @@ impl Fold {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Bend {
-    /// Number of the bend among those of its sheet, the same for all of its folds.
+    /// Number of the bend, the same for all of its folds and for no other bend's.
     pub number: u32,
     /// Angle by which all folds of the bend turn together, in radians.
     pub angle: f64,

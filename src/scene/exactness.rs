@@ -40,10 +40,17 @@ pub enum Exactness {
 impl Exactness {
     /// Tells which part of a mesh is exact. Costs `O(triangles · log(triangles))`.
     pub fn of(mesh: &Mesh) -> Exactness {
-        match Polyhedron::new(mesh) {
-            Ok(solid) if are_faces_exact(&solid) => Exactness::Faces,
-            Ok(solid) if are_vertices_exact(&solid) => Exactness::Vertices,
-            _ => Exactness::None,
+        Polyhedron::new(mesh).map_or(Exactness::None, |solid| Exactness::of_solid(&solid))
+    }
+
+    /// Tells which part of a mesh is exact by its facets.
+    pub(crate) fn of_solid(solid: &Polyhedron) -> Exactness {
+        if are_faces_exact(solid) {
+            Exactness::Faces
+        } else if are_vertices_exact(solid) {
+            Exactness::Vertices
+        } else {
+            Exactness::None
         }
     }
 }
@@ -75,8 +82,8 @@ fn are_faces_exact(solid: &Polyhedron) -> bool {
 
 /// Whether a mesh has so few faces that whoever asks for its pattern means each of them. Noise in so few would not be told from shape,
 /// and is removed by a fit if that is asked for.
-pub(crate) fn has_few_faces(mesh: &Mesh) -> bool {
-    Polyhedron::new(mesh).is_ok_and(|solid| solid.normals.len() <= MAX_FEW_FACES)
+pub(crate) fn has_few_faces(solid: &Polyhedron) -> bool {
+    solid.normals.len() <= MAX_FEW_FACES
 }
 
 fn are_vertices_exact(solid: &Polyhedron) -> bool {

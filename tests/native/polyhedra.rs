@@ -239,7 +239,7 @@ fn bends_in_any_triangles_have_parallel_lines_and_the_blank_that_they_were_bent_
             Exactness::Vertices,
             "{bends:?} {hole}"
         );
-        let found = rolled_faces(&mesh, Exactness::of(&mesh)).expect("a bent sheet");
+        let found = rolled_faces(&mesh).expect("a bent sheet");
         let sheets = found.pattern(&NetOptions::default()).unwrap().sheets;
         let [sheet] = &sheets[..] else {
             panic!("{} sheets", sheets.len());
@@ -284,10 +284,6 @@ fn bends_in_any_triangles_have_parallel_lines_and_the_blank_that_they_were_bent_
 fn what_is_bent_otherwise_has_no_rolled_faces() {
     for roof in &BENT[2..] {
         let mesh = scan(*roof, Tessellation::Regular, 30, 0.0, 3);
-        assert!(
-            rolled_faces(&mesh, Exactness::of(&mesh)).is_none(),
-            "{}",
-            roof.0
-        );
+        assert!(rolled_faces(&mesh).is_none(), "{}", roof.0);
     }
 }

@@ -2,10 +2,11 @@
 
 use super::FoundFaces;
 use super::noisy::noisy_faces;
-use super::rolled::rolled_faces;
+use super::rolled::divided_bends;
 use crate::error::Result;
 use crate::scene::exactness::{Exactness, has_few_faces};
 use crate::scene::mesh::Mesh;
+use crate::scene::polyhedron::Polyhedron;
 
 /// What a mesh is, and the faces that were found in it. Each kind is laid flat in its own way.
 pub enum MeshKind {
@@ -22,24 +23,28 @@ pub enum MeshKind {
 }
 
 impl MeshKind {
-    /// Recognises a mesh; costs what [`noisy_faces`] and [`rolled_faces`] cost.
+    /// Recognises a mesh; costs what [`noisy_faces`] and [`rolled_faces`](super::rolled_faces) cost.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn of(mesh: &Mesh) -> Result<MeshKind> {
-        let exactness = Exactness::of(mesh);
+        let solid = Polyhedron::new(mesh).ok();
+        let exactness = (solid.as_ref()).map_or(Exactness::None, Exactness::of_solid);
         if exactness == Exactness::None
             && let Some(found) = noisy_faces(mesh)?
         {
             return Ok(MeshKind::NoisyFaces(found));
         }
-        let known = match has_few_faces(mesh) {
+        let Some(solid) = solid else {
+            return Ok(MeshKind::Noisy);
+        };
+        let known = match has_few_faces(&solid) {
             true => Exactness::Faces,
             false => exactness,
         };
         let rolled = match known {
             Exactness::None => None,
-            _ => rolled_faces(mesh, known),
+            _ => divided_bends(&solid, known),
         };
         Ok(match (rolled, known) {
             (Some(found), _) => MeshKind::Bends(found),

@@ -40,17 +40,16 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
     let sides = 0..solid.twins.len() as u32;
     let spacing = sides.map(|side| solid.length(side)).sum::<f64>() / edges;
     let radii = radii(solid, patches);
-    // The bend that goes on or ends at each fold.
-    let mut bend_at: Vec<Option<u32>> = vec![None; creases.len()];
+    // The bend that goes on or ends at each fold, with its radii.
+    let mut bend_at: Vec<Option<(u32, [f64; 2])>> = vec![None; creases.len()];
     for side in solid.inner_sides() {
         let [a, b] = [side, solid.twins[side as usize]].map(|s| solid.facet(s));
-        let bends = [(a, b), (b, a)].map(|(own, other)| {
+        let [first, second] = [(a, b), (b, a)].map(|(own, other)| {
             let bend = patches
                 .goes_on(own, other)
-                .then(|| patches.bends[own as usize]);
-            bend.filter(|bend| radii[*bend as usize].is_some())
+                .then(|| patches.bends[own as usize])?;
+            Some((bend, radii[bend as usize]?))
         });
-        let [first, second] = bends;
         let found = &mut bend_at[flat.seam_of[side as usize] as usize];
         *found = found.or(first).or(second);
     }
@@ -64,10 +63,7 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
         let members = members.filter(|(_, facet)| is_own[**facet as usize]);
         let members: Vec<u32> = members.map(|(t, _)| t).collect();
         let mut sheet = flat.sheet(&members, |_| 0.0);
-        mark_bends(&mut sheet.folds, |fold| {
-            let bend = bend_at[fold.seam.crease]?;
-            Some((bend, radii[bend as usize]?))
-        });
+        mark_bends(&mut sheet.folds, |fold| bend_at[fold.seam.crease]);
         Sheet {
             spacing,
             area: area(facets),

@@ -27,26 +27,32 @@ const SEED_FACETS: usize = 8;
 const MAX_SLENDER_SHARE: f64 = 0.05;
 
 /// Finds the bends of a mesh without noise that are parts of cylinders and circular cones and not divided along their rulings, and divides
-/// them so; all other faces are those of the mesh. `None` if there are none, and where faces are known only as parts of bends:
-/// then each has to be on one, or next to it.
+/// them so; all other faces are those of the mesh. `None` if there are none, and where the faces of the mesh are not exact
+/// ([`Exactness::Faces`]) and one of them is neither on a bend nor next to it.
 ///
 /// Costs `O(triangles)` for each bend.
-pub fn rolled_faces(mesh: &Mesh, exactness: Exactness) -> Option<FoundFaces> {
+pub fn rolled_faces(mesh: &Mesh) -> Option<FoundFaces> {
     let solid = Polyhedron::new(mesh).ok()?;
+    divided_bends(&solid, Exactness::of_solid(&solid))
+}
+
+/// The faces of a mesh of whose exactness more may be known.
+pub(super) fn divided_bends(solid: &Polyhedron, exactness: Exactness) -> Option<FoundFaces> {
     // What is drawn on faces, and edges of more than two of them, are not divided.
     if !solid.textured.is_empty() || solid.twins != twin_half_edges(&solid.triangles) {
         return None;
     }
-    let rolls = Search::new(&solid).rolls();
-    if exactness != Exactness::Faces && !are_all_known(&solid, &rolls) {
+    let mut rolls = Search::new(solid).rolls();
+    if exactness != Exactness::Faces && !are_all_known(solid, &rolls) {
         return None;
     }
-    let mut divided = Division::new(&solid);
-    let wrong: Vec<bool> = (rolls.iter().filter(|roll| !roll.is_divided(&solid)))
-        .map(|roll| divided.divide(roll).is_none())
-        .collect();
-    if wrong.is_empty() || wrong.contains(&true) {
+    rolls.retain(|roll| !roll.is_divided(solid));
+    if rolls.is_empty() {
         return None;
+    }
+    let mut divided = Division::new(solid);
+    for roll in &rolls {
+        divided.divide(roll)?;
     }
     let solid = divided.into_polyhedron();
     Some(FoundFaces {

@@ -3,6 +3,7 @@
 use rustc_hash::FxHashSet;
 
 use super::cone::Cone;
+use crate::math::index::NO_INDEX;
 use crate::scene::polyhedron::{Place, Polyhedron};
 
 /// Distance from a cylinder, in units of the rounding, within which a point lies on it. `benches/patterns.md` has what others give.
@@ -33,11 +34,13 @@ impl Roll {
 
     /// Whether its facets are strips along its rulings already.
     pub(super) fn is_divided(&self, solid: &Polyhedron) -> bool {
-        let own = |side: u32| self.facets.contains(&solid.facet(side));
-        let mut lines = solid
-            .inner_sides()
-            .filter(|side| own(*side) && own(solid.twins[*side as usize]));
-        lines.all(|side| self.is_along(solid, side))
+        let sides = self.triangles.iter().flat_map(|t| 3 * t..3 * t + 3);
+        let mut lines = sides.filter(|side| {
+            let (own, twin) = (solid.facets[side / 3], solid.twins[*side]);
+            let is_own = |facet| self.facets.contains(&facet);
+            twin != NO_INDEX && own != solid.facet(twin) && is_own(own) && is_own(solid.facet(twin))
+        });
+        lines.all(|side| self.is_along(solid, side as u32))
     }
 
     /// Whether a point lies on the surface beyond the line at which a face touches it.

@@ -55,9 +55,8 @@ export function fieldsOf(table, onChange = () => {}) {
     if (!isCheck) control.setAttribute('aria-describedby', `${fault.id} ${about.id} ${describedBy}`.trim());
     if (controls) control.setAttribute('aria-controls', controls);
     const node = isCheck ? make('label', 'check', control, ` ${label}`) : make('div', 'field', Object.assign(make('label', '', label), { htmlFor: name }), control, fault, about);
-    /** Says what is wrong. @returns {string} empty if nothing is */
-    const check = () => {
-      const words = node.hidden || !(control instanceof HTMLInputElement) || isCheck ? '' : faultOf(field, control.value);
+    /** Says what is wrong. @param {string} [words] empty if nothing is */
+    const check = (words = node.hidden || !(control instanceof HTMLInputElement) || isCheck ? '' : faultOf(field, control.value)) => {
       fault.textContent = words;
       if (words) control.setAttribute('aria-invalid', 'true');
       else control.removeAttribute('aria-invalid');
@@ -90,6 +89,13 @@ export function fieldsOf(table, onChange = () => {}) {
       else control.value = String(value);
       check();
     },
+    /** What was chosen or typed. @param {...N} wanted */
+    values: (...wanted) => Object.fromEntries(wanted.map((name) => {
+      const { type, checked, value } = /** @type {HTMLInputElement} */ (fields[name].control);
+      return [name, type === 'checkbox' ? checked : value];
+    })),
+    /** Says what else is wrong in a field, until it is changed. @param {N} name @param {string} words */
+    blame: (name, words) => void fields[name].check(words),
     /** @param {N} name @param {string} words */
     hint: (name, words) => void (fields[name].about.textContent = words),
     /** Shows or hides fields. @param {boolean} isShown @param {...N} wanted */

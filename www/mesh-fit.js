@@ -1,6 +1,7 @@
 /** The fit of a whole mesh, and analyses of the result. */
 import { Tasks } from './worker-task.js';
 import { Events } from './events.js';
+import { withoutFaces } from './pattern.js';
 import { sidesOf } from './surface/triangles.js';
 
 /** @typedef {(progress: import('./panels/waiting.js').TaskProgress) => void} Tell gets how far a step is */
@@ -119,8 +120,8 @@ export class MeshFit extends Events {
     const laidFlat = isKnown ? mesh : surface;
     const smooth = isKnown || surface.report.stopReason === 'noNoise' ? {} : { exact: false };
     // A solid of sheet metal has a thickness of its own.
-    const { thickness: _thickness, innerRadius: _innerRadius, ...others } = options;
-    const own = thickness !== undefined && options.thickness !== undefined ? { ...others, blank: true } : options;
+    const { thickness: sheetThickness, innerRadius, ...others } = isKnown && kind !== 'bends' ? options : withoutFaces(options);
+    const own = sheetThickness === undefined ? others : thickness === undefined ? { ...others, thickness: sheetThickness, innerRadius } : { ...others, blank: true };
     // Card shows what the model looks like.
     const printed = kind === 'faces' && laidFlat.textures !== undefined && options.thickness === undefined;
     return this.#tasks.answer(laidFlat, `pattern ${JSON.stringify(options)}`, (worker) =>

@@ -46,32 +46,25 @@ export const TASK_WORDS = {
 
 /** Messages about files that were dropped on the wrong part of the page, or that cannot be read. */
 export const FILE_WORDS = {
-  /** @param {string} name */
-  noHeights: (name) => `“${name}” has no heights that are read. If it is a camera, open it together with its depths. ${OPENED_FILES}.`,
-  /** @param {number} n */
-  takenForPages: (n) => (n === 1 ? 'Taken for a photo of a page.' : 'Taken for photos of pages.'),
+  noHeights: (/** @type {string} */ name) => `“${name}” has no heights that are read. If it is a camera, open it together with its depths. ${OPENED_FILES}.`,
+  takenForPages: (/** @type {number} */ n) => (n === 1 ? 'Taken for a photo of a page.' : 'Taken for photos of pages.'),
   heightsInstead: 'Heights instead?',
   takenForHeights: 'Taken for heights.',
   openAsPage: 'Flatten it as a page',
-  /** @param {string} name */
-  inColour: (name) => `“${name}” is in colour and has no heights. With its depths, open both together.`,
+  inColour: (/** @type {string} */ name) => `“${name}” is in colour and has no heights. With its depths, open both together.`,
   /** @param {readonly { name: string }[]} files @param {boolean} areDepths */
   leftOut: (files, areDepths) => `Left out: ${files.map(({ name }) => `“${name}”`).join(', ')}.${areDepths ? ' With depths go one photo and the camera’s file.' : ''}`,
-  /** @param {readonly { name: string }[]} files */
-  openInstead: (files) => (files.length === 1 ? `Open “${files[0].name}” instead` : 'Open these instead'),
+  openInstead: (/** @type {readonly { name: string }[]} */ files) => (files.length === 1 ? `Open “${files[0].name}” instead` : 'Open these instead'),
 };
 
 /** Labels and messages about several scans that are cleaned in one go. */
 export const BATCH_WORDS = {
-  /** @param {number} n */
-  offer: (n) => `Clean ${n === 2 ? 'both' : `all ${count(n)}`} into one ZIP…`,
-  /** @param {number} n */
-  title: (n) => `${count(n)} scans in one ZIP`,
+  offer: (/** @type {number} */ n) => `Clean ${n === 2 ? 'both' : `all ${count(n)}`} into one ZIP…`,
+  title: (/** @type {number} */ n) => `${count(n)} scans in one ZIP`,
   /** @param {number} n @param {number} all @param {string} name */
   solving: (n, all, name) => `Cleaning ${count(n)} of ${count(all)}, “${name}”…`,
   depths: 'it has depths from a camera: open it alone',
-  /** @param {readonly string[]} problems */
-  without: (problems) => (problems.length > 0 ? `Without ${problems.join('; ')}.` : ''),
+  without: (/** @type {readonly string[]} */ problems) => (problems.length > 0 ? `Without ${problems.join('; ')}.` : ''),
 };
 
 /** Messages about depths from a camera. */
@@ -94,8 +87,7 @@ export function assumedInWords(assumptions = []) {
 /** Messages about guessed metadata of a file. */
 export const GUESS_WORDS = {
   few: 'Few pixels have a height, and the surface exists only there. The command “design” makes a surface through single heights.',
-  /** @param {number} step */
-  coarse: (step) => `The image is large, so one vertex stands for ${step} × ${step} pixels (“Lattice” under “More options” changes that).`,
+  coarse: (/** @type {number} */ step) => `The image is large, so one vertex stands for ${step} × ${step} pixels (“Lattice” under “More options” changes that).`,
 };
 
 /** The energies: their names and what they do. @type {Record<Energy, { name: string, about: string }>} */
@@ -143,48 +135,42 @@ export const MESH_FIT_WORDS = {
   solving: 'Solving the whole mesh…',
   solved: 'Done: the whole mesh.',
   unsolved: 'The mesh cannot be solved as a whole.',
-  /** @param {string} share */
-  hidden: (share) => `From this side ${share} of the surface is hidden. “Whole mesh” solves all of it.`,
+  hidden: (/** @type {string} */ share) => `From this side ${share} of the surface is hidden. “Whole mesh” solves all of it.`,
   noNoise: 'The mesh has no noise, and is left as it is.',
   flatFaces: 'No colour: all faces are flat, so that the surface bends at edges and corners only.',
   maxIterations: 'The solve stopped at the maximum number of iterations.',
   diverged: 'The iterations diverged. You see the best surface before.',
-  /** @param {number} n */
-  repaired: (n) => `${countOf(n, 'triangle was', 'triangles were')} repaired first: wrong side, no area, or double.`,
-  /** @param {number} n */
-  branched: (n) => `${countOf(n, 'edge has', 'edges have')} three triangles or more, and ${n === 1 ? 'is a border' : 'are borders'} of each.`,
+  repaired: (/** @type {number} */ n) => `${countOf(n, 'triangle was', 'triangles were')} repaired first: wrong side, no area, or double.`,
+  branched: (/** @type {number} */ n) => `${countOf(n, 'edge has', 'edges have')} three triangles or more, and ${n === 1 ? 'is a border' : 'are borders'} of each.`,
   /** @param {number} n @param {string} place */
   entangled: (n, place) => `${countOf(n, 'triangle is', 'triangles are')} folded over or cross others, the first near (${place}). Repair the mesh there.`,
-  /** @param {number} n */
-  flipped: (n) => `${countOf(n, 'triangle')} of the result ${n === 1 ? 'is' : 'are'} folded over.`,
+  flipped: (/** @type {number} */ n) => `${countOf(n, 'triangle')} of the result ${n === 1 ? 'is' : 'are'} folded over.`,
   /** @param {number} passes @param {string} gap */
   proof: (passes, gap) => `The last of ${count(passes)} steps is proven within ${gap} of its optimum.`,
 };
 
 /** Labels and messages about sheets to cut out. */
 export const SHEET_WORDS = {
-  /** @param {string} unit */
-  unit: (unit) => (({ mm: 'millimetres', cm: 'centimetres', m: 'metres', inch: 'inches' })[unit] ?? unit),
+  unit: (/** @type {string} */ unit) => (({ mm: 'millimetres', cm: 'centimetres', m: 'metres', inch: 'inches' })[unit] ?? unit),
   figures: 'Figures, and how to build it',
   title: 'Cut-out sheets',
   /** @param {string} side @param {number} pages @param {number} joints @param {string} [smallest] of several sheets */
   headline: (side, pages, joints, smallest) =>
-    `Cut-out sheets: ${side} mm, ${countOf(pages, 'page')}, ${countOf(joints, 'joint')}${smallest ? `, smallest sheet ${smallest} mm` : ''}`,
-  /** @param {string} smallest */
-  small: (smallest) => `Hard to build: the smallest sheet is ${smallest} mm long. Make it larger, or its pieces simpler.`,
-  /** @param {number} joints */
-  long: (joints) => `Long to build: ${count(joints)} joints. Simpler pieces have fewer.`,
-  /** @param {number} pages */
-  manyPages: (pages) => `These are ${count(pages)} pages. Is the unit of the file right? A smaller longer side needs fewer.`,
-  /** @param {string} side */
-  fit: (side) => `Each sheet on one page: ${side} mm`,
+    `Cut-out sheets: ${side} mm, ${countOf(pages, 'page')}${joints > 0 ? `, ${countOf(joints, 'joint')}` : ''}${smallest ? `, smallest sheet ${smallest} mm` : ''}`,
+  small: (/** @type {string} */ smallest) => `Hard to build: the smallest sheet is ${smallest} mm long. Make it larger, or its pieces simpler.`,
+  long: (/** @type {number} */ joints) => `Long to build: ${count(joints)} joints. Simpler pieces have fewer.`,
+  manyPages: (/** @type {number} */ pages) => `These are ${count(pages)} pages. Is the unit of the file right? A smaller longer side needs fewer.`,
+  fit: (/** @type {string} */ side) => `Each sheet on one page: ${side} mm`,
   upperSide: 'The surface is the upper side of the metal.',
-  /** @param {string} thickness */
-  blank: (thickness) => `A solid of sheet metal, ${thickness} mm thick: this is the blank that it is bent from.`,
+  blank: (/** @type {string} */ thickness) => `A solid of sheet metal, ${thickness} mm thick: this is the blank that it is bent from.`,
+  enlarge: 'Enlarge the picture',
   pairs: 'such as 1-7, 2-3',
   wrongPairs: 'These are numbers of two pieces each, such as 1-7, 2-3.',
   noEdge: 'There is no fold or cut here. Click a fold, or the letter of a cut.',
-  legend: 'Numbers are those of the smooth pieces. Sides with the same letter belong together. M is a fold to a ridge, V to a valley.',
+  /** @param {number[]} pair @param {number} pieces */
+  noEdgeBetween: ([a, b], pieces) => (b > pieces ? `There is no piece ${b}.` : a === b ? `Piece ${a} has no edge with itself.` : `Pieces ${a} and ${b} have no edge in common.`),
+  /** @param {{ seams: number, folds: number }} summary */
+  legend: ({ seams, folds }) => `Numbers are those of the smooth pieces.${seams > 0 ? ' Sides with the same letter belong together.' : ''}${folds > 0 ? ' M is a fold to a ridge, V to a valley.' : ''}`,
   edges: 'Click a fold to cut it, or the letter of a cut to fold it.',
   byNumber: 'Folds and cuts by number',
   cancelled: 'Cancelled.',
@@ -195,8 +181,7 @@ export const SHEET_WORDS = {
   png: 'a picture of the finished piece, and how its sheets are joined',
   glb: 'a 3D film of how the sheets go to their places',
   curvedFold: 'Metal needs straight bends, and one fold of these sheets is curved. Choose “card or paper”, or a smaller λ for simpler pieces.',
-  /** @param {string} reason */
-  uncut: (reason) => `The surface cannot be cut into sheets: ${reason}.`,
+  uncut: (/** @type {string} */ reason) => `The surface cannot be cut into sheets: ${reason}.`,
 };
 
 /** Purposes of file formats, as the save dialogs show them beside each format. */
@@ -221,17 +206,12 @@ export const SAVE_WORDS = {
   cancelled: 'Cancelled.',
   pdfOfTwo: 'to print or to send, one page for each',
   working: 'Writing the file…',
-  /** @param {string} name */
-  saved: (name) => `Saved ${name}. Choose another format, or close the dialog.`,
-  /** @param {string} unit */
-  unit: (unit) => `Lengths in the file are in ${SHEET_WORDS.unit(unit)}${unit === 'mm' ? '' : '; programs for 3D printing take them for millimetres'}.`,
-  /** @param {string} reason */
-  unwritten: (reason) => `The file was not written: ${reason}.`,
-  /** @param {string} looksLike */
-  paper: (looksLike) => `Paper size of the PDF${looksLike ? ` (looks like ${looksLike})` : ''}`,
+  saved: (/** @type {string} */ name) => `Saved ${name}. Choose another format, or close the dialog.`,
+  unit: (/** @type {string} */ unit) => `Lengths in the file are in ${SHEET_WORDS.unit(unit)}${unit === 'mm' ? '' : '; programs for 3D printing take them for millimetres'}.`,
+  unwritten: (/** @type {string} */ reason) => `The file was not written: ${reason}.`,
+  paper: (/** @type {string} */ looksLike) => `Paper size of the PDF${looksLike ? ` (looks like ${looksLike})` : ''}`,
   searchable: 'Searchable: recognise English text (loads 3.6 MB once; the photo stays here)',
-  /** @param {string} size */
-  trueSize: (size) => `true size, ${size}`,
+  trueSize: (/** @type {string} */ size) => `true size, ${size}`,
   papers: { a4: 'A4', letter: 'Letter', a5: 'A5', a3: 'A3', 'a4-wide': 'A4 landscape', 'letter-wide': 'Letter landscape' },
 };
 
@@ -244,15 +224,13 @@ export const HEADLINE_WORDS = {
   unsolved: 'The surface is not solved.',
   stays: 'You see the result from before.',
   solving: 'Solving…',
-  /** @param {string} name */
-  opened: (name) => `Opened ${name}.`,
+  opened: (/** @type {string} */ name) => `Opened ${name}.`,
 };
 
 /** What the progress of a solve says. */
 export const RUN_WORDS = {
   stopping: 'Stopping',
-  /** @param {number} level */
-  coarse: (level) => `Coarse solve, ${countOf(level, 'finer one')} to come`,
+  coarse: (/** @type {number} */ level) => `Coarse solve, ${countOf(level, 'finer one')} to come`,
   /** @param {number | undefined} gap @param {number} iterations */
   fine: (gap, iterations) =>
     `${gap !== undefined && gap < MAX_MENTIONED_GAP ? `Within ${percentAtMost(gap)} of the best possible` : TASK_WORDS.solving}, ${countOf(iterations, 'iteration')}`,

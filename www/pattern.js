@@ -5,16 +5,24 @@ import { count, number, numberAgainst, percent } from './format.js';
 /**
  * Options of a pattern, with lengths in millimetres; `side` is the longer side of the finished surface.
  * @typedef {{ side: number } & Pick<PatternOptions, 'tabs' | 'kerf' | 'thickness' | 'innerRadius' | 'kFactor' | 'assembly'>
- *   & Pick<import('../pkg/types.js').MeshPatternOptions, 'cut' | 'join'>} CutOptions
+ *   & Pick<import('../pkg/types.js').MeshPatternOptions, 'cut' | 'join' | 'stock'>} CutOptions
  */
+
+/** The options of a pattern without those of flat faces, which alone are cut anywhere. @template {Partial<CutOptions>} T @param {T} options */
+export const withoutFaces = ({ cut, join, stock, ...others }) => others;
+
+/** What tells a model from others, to keep what was chosen for it. @param {Pick<Input, 'name' | 'width' | 'height' | 'sampling'>} input */
+export const modelOf = ({ name, width, height, sampling }) => `${name} ${sampling ? sampling.mesh.positions.length : width * height}`;
 
 /** Maximum strains of the sheets, tried one after the other: the second only if no cut satisfies the first. */
 const STRAIN_LIMITS = [0.01, 0.1];
+/** Length mismatch of joints above which their sides are seen not to fit, as a share. */
+const MAX_FITTING_MISMATCH = 0.02;
 /** Longer side of a finished surface without a unit, or that cannot have its true size, in millimetres. */
 const DEFAULT_FINISHED_SIDE_MM = 180;
 
-/** Longer side of a drawing that is shown, in widths of its lines. */
-const LINES_ACROSS = 400;
+/** Width of the lines of a drawing that is shown, and wanted size of its texts, in CSS pixels; and how many of these find room across a piece. */
+const [LINE_PIXELS, TEXT_PIXELS, TEXTS_ACROSS] = [1.2, 12, 5];
 
 /** Longer side of a result seen from above, in the unit of its input. @param {Result} result */
 export function longerSide({ input: { width, height, pixelSize } }) {
@@ -60,7 +68,8 @@ export function lengthUnitOf({ unit, kind }) {
  * @param {Tell} tell
  * @returns {Promise<Drawing>}
  */
-export async function cutSheets(analyses, result, { side, ...options }, tell) {
+export async function cutSheets(analyses, result, { side, ...given }, tell) {
+  const options = withoutFaces(given);
   const scale = side / longerSide(result);
   const { count: patches } = await analyses.patchCount(result);
   // A surface that is creased all over cannot meet the first limit, and trying takes a minute.
@@ -75,23 +84,20 @@ export async function cutSheets(analyses, result, { side, ...options }, tell) {
 }
 
 /** The number of sheets, folds, seams and slits in sentences, and what is missing. @param {Drawing} drawing */
-export function sheetsInWords({ summary: { sheets, seams, folds, slits, strain, missing, untabbed, unlettered } }) {
+export function sheetsInWords({ summary: { sheets, seams, folds, slits, strain, mismatch, missing, untabbed, unlettered } }) {
   const cut = seams === 0 ? '' : `, to be joined along ${seams === 1 ? 'one cut' : `${count(seams)} cuts`}`;
   const fold = folds === 0 ? '' : `, with ${folds === 1 ? 'one fold' : `${count(folds)} folds`}`;
   const slit = slits === 0 ? '' : ` ${slits === 1 ? 'One cut' : `${count(slits)} cuts`}, then ${sheets === 1 ? 'it lies' : 'they lie'} flat.`;
   const stretch = strain > STRAIN_LIMITS[0] ? ` Paper has to give by ${percent(strain)}: use something that stretches, or a smaller λ.` : '';
+  const misfit = mismatch > MAX_FITTING_MISMATCH ? ` Joints will not fit: the two sides of one differ in length by ${percent(mismatch)}.` : '';
   const lost = (missing?.area ?? 0) + (missing?.stepArea ?? 0);
   const without = lost > 0 ? ` ${number(lost / 100, 2)} cm² of the surface, at ragged borders or steps, are on no sheet.` : '';
   const bare = untabbed > 0 ? ` ${untabbed === 1 ? 'One cut has' : `${count(untabbed)} cuts have`} no room for a tab.` : '';
   const nameless = unlettered > 0 ? ` ${unlettered === 1 ? 'One cut has' : `${count(unlettered)} cuts have`} no room for a letter.` : '';
-  return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}${fold}${cut}.${slit}${stretch}${without}${bare}${nameless}`;
+  return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}${fold}${cut}.${slit}${stretch}${misfit}${without}${bare}${nameless}`;
 }
 
-/**
- * Figures of a drawing: names and values.
- * @param {Drawing} drawing
- * @returns {[string, string][]}
- */
+/** Figures of a drawing: names and values. @param {Drawing} drawing @returns {[string, string][]} */
 export function sheetFigures({ width, height, summary: { cutLength, mountainLength, valleyLength, area, strain, mismatch, worstAngle, a4, letter } }) {
   const angleMismatch = worstAngle && Math.abs(worstAngle.flat - worstAngle.surface);
   return [
@@ -110,13 +116,25 @@ export function sheetFigures({ width, height, summary: { cutLength, mountainLeng
  * Displays a drawing as an image element, made from the SVG file.
  * @param {Api} api
  * @param {Drawing} drawing
+ * @param {{ clientWidth: number, clientHeight: number }} frame into which it fits
+ * @param {number} [zoom] how much larger it is shown
  */
-export async function drawingImage(api, drawing) {
+export async function drawingImage(api, drawing, frame, zoom = 1) {
   const image = new Image();
-  // On paper lines are a fifth of a millimetre wide: too thin to be seen where a large drawing is shown small.
-  const width = Math.max(drawing.width, drawing.height) / LINES_ACROSS;
-  const svg = new TextDecoder().decode(await api.writeSvg(drawing)).replace(/(?<=<svg[^>]*>)/, '<rect width="100%" height="100%" fill="#fff"/>').replace(/stroke-width="[^"]*"/g, `stroke-width="${width}"`)
-    .replace(/stroke-dasharray="([^"]*)"/g, (_, dashes) => `stroke-dasharray="${dashes.split(' ').map((/** @type {string} */ dash) => 3 * Number(dash) * width).join(' ')}"`);
+  const { pages: { part: [wide, high], pages } = { part: [0, 0], pages: [] } } = drawing;
+  image.style.setProperty('--aspect', String(drawing.width / drawing.height));
+  // On paper lines are a fifth of a millimetre wide and letters 3 mm high: too small to be seen where a large drawing is shown small.
+  const pixel = Math.max(drawing.width / frame.clientWidth, drawing.height / frame.clientHeight) / zoom;
+  const width = LINE_PIXELS * pixel;
+  const room = Math.sqrt(drawing.summary.area / drawing.sheets.flatMap(({ patches }) => patches).length) / TEXTS_ACROSS;
+  const svg = new TextDecoder().decode(await api.writeSvg(drawing)).replace(/(?<=<svg[^>]*>)/, `<rect width="100%" height="100%" fill="#fff"/>${pages.map(({ corner: [x, y] }) =>
+    `<rect x="${x}" y="${drawing.height - y - high}" width="${wide}" height="${high}" fill="none" stroke="#ccd3d8" stroke-width="0"/>`).join('')}`).replace(/stroke-width="[^"]*"/g, `stroke-width="${width}"`)
+    .replace(/stroke-dasharray="([^"]*)"/g, (_, dashes) => `stroke-dasharray="${dashes.split(' ').map((/** @type {string} */ dash) => 3 * Number(dash) * width).join(' ')}"`)
+    .replace(/id="label"/, `$& paint-order="stroke" stroke="#fff" stroke-width="${3 * width}"`)
+    .replace(/dy="[^"]*" font-size="([^"]*)"/g, (_, given) => {
+      const size = Math.max(given, Math.min(room, TEXT_PIXELS * pixel));
+      return `dy="${0.35 * size}" font-size="${size}"`;
+    });
   const address = URL.createObjectURL(new Blob([svg], { type: 'image/svg+xml' }));
   try {
     image.src = address;

@@ -24,12 +24,7 @@ export function edgeAt({ width, height, sheets }, place) {
   return a === b ? null : { pair: [a + 1, b + 1], isFold: nearest.isFold };
 }
 
-/**
- * The distance of a place from a segment.
- * @param {Place} a
- * @param {Place} b
- * @param {Place} place
- */
+/** The distance of a place from a segment. @param {Place} a @param {Place} b @param {Place} place */
 function distanceFrom([ax, ay], [bx, by], [x, y]) {
   const [dx, dy] = [bx - ax, by - ay];
   const share = Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1)));
@@ -39,7 +34,7 @@ function distanceFrom([ax, ay], [bx, by], [x, y]) {
 /** Pairs of numbers in a text such as `1-7, 2-3`; null for another text. @param {string} text @returns {Pair[] | null} */
 export function parsePairs(text) {
   const parts = text.split(/[,;]/).map((part) => part.trim()).filter(Boolean);
-  const pairs = parts.map((part) => /^(\d+)\s*[-–]\s*(\d+)$/.exec(part)?.slice(1).map(Number).sort((a, b) => a - b));
+  const pairs = parts.map((part) => /^([1-9]\d*)\s*[-–]\s*([1-9]\d*)$/.exec(part)?.slice(1).map(Number).sort((a, b) => a - b));
   return pairs.every((pair) => pair !== undefined) ? /** @type {Pair[]} */ (pairs) : null;
 }
 

@@ -49,10 +49,11 @@ test('pairs are read from a text, and put into it and out again', () => {
 });
 
 test('what of a surface is on no sheet is said, and which cuts have no tab or letter', () => {
-  const summary = { sheets: 2, seams: 3, folds: 0, slits: 0, strain: 0, untabbed: 0, unlettered: 0 };
+  const summary = { sheets: 2, seams: 3, folds: 0, slits: 0, strain: 0, mismatch: 0.02, untabbed: 0, unlettered: 0 };
   const said = (/** @type {object} */ more) => sheetsInWords(/** @type {any} */ ({ summary: { ...summary, ...more } }));
   assert.equal(said({}), '2 sheets, to be joined along 3 cuts.');
   assert.equal(said({ unlettered: 2 }), '2 sheets, to be joined along 3 cuts. 2 cuts have no room for a letter.');
+  assert.equal(said({ mismatch: 0.031 }).replaceAll('\u00a0', ' '), '2 sheets, to be joined along 3 cuts. Joints will not fit: the two sides of one differ in length by 3.1 %.');
   assert.match(said({ missing: { vertices: 4, area: 1200, steps: 1, stepArea: 300 }, untabbed: 1 }), /15 cm² of the surface.* are on no sheet\. One cut has no room for a tab\.$/);
 });
 
@@ -75,7 +76,7 @@ doorTest('a fold that is clicked in the drawing is cut', async (page) => {
   await image.waitFor();
   const [toCut, toJoin] = [page.getByLabel('Cut between pieces'), page.getByLabel('Fold between pieces')];
   const address = await image.getAttribute('src');
-  const drawing = await pattern(box, { size: 60, tabs: 6 });
+  const drawing = await pattern(box, { size: 60, tabs: 6, stock: 'letter' });
   dispose();
   const shown = await image.boundingBox();
   assert.ok(shown);
@@ -151,13 +152,67 @@ doorTest('a sheet that takes several pages is made to fit one', async (page) => 
   const [title, fit] = [page.locator('#save-title'), page.getByRole('button', { name: /^Each sheet on one page: / })];
   await title.filter({ hasText: /60 mm, 1 page,/ }).waitFor();
   assert.equal(await fit.isVisible(), false);
+  await page.getByLabel('Pieces that fit one page').uncheck();
   await page.getByLabel('Longer side when finished').fill('300');
+  await fit.waitFor();
+  assert.match(await page.locator('.sheets .said').innerText(), /^One sheet/);
+  await page.getByLabel('Pieces that fit one page').check();
+  await page.locator('.sheets .said', { hasText: /^6 sheets/ }).waitFor();
+  await page.getByLabel('Pieces that fit one page').uncheck();
+  await page.locator('.sheets .said', { hasText: /^One sheet/ }).waitFor();
   await fit.click();
   await title.filter({ hasText: /, 1 page,/ }).filter({ hasNotText: '300 mm' }).waitFor();
   await fit.waitFor({ state: 'hidden' });
   const side = Number(await page.getByLabel('Longer side when finished').inputValue());
   assert.ok(side > 60 && side < 150, `${side}`);
 });
+
+doorTest('the size and the cuts of a model stay with it, and what no piece has is said at the field', async (page) => {
+  const [side, toCut, wrong] = [page.getByLabel('Longer side when finished'), page.getByLabel('Cut between pieces'), page.locator('#sheet-cut-wrong')];
+  /** @param {[string, string]} wanted */
+  const shows = async (...wanted) => {
+    await page.locator('#end-sheets').click();
+    await page.locator('.preview[aria-busy="false"] img').waitFor();
+    assert.deepEqual([await side.inputValue(), await toCut.inputValue()], wanted);
+    assert.equal(await page.evaluate(() => document.activeElement?.id), 'save-title', 'the dialog is read from its heading');
+  };
+  await openWhole(page, 'box.obj', obj({ points, triangles }));
+  await shows('60', '');
+  await page.locator('.edges summary').click();
+  for (const [pair, words] of [['1-99', 'There is no piece 99.'], ['1-1', 'Piece 1 has no edge with itself.'], ['1-2', 'Pieces 1 and 2 have no edge in common.']]) {
+    await toCut.fill(pair);
+    await wrong.filter({ hasText: words }).waitFor();
+    assert.equal(await page.locator('.sheets .said').innerText(), '');
+  }
+  await toCut.fill('1-3');
+  await side.fill('90');
+  await page.locator('#save-title', { hasText: '90 mm' }).waitFor();
+  await page.getByRole('button', { name: 'Close' }).click();
+  await shows('90', '1-3');
+  await page.waitForURL(/file=\d/);
+  await page.reload();
+  await page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
+  await shows('90', '1-3');
+  await page.getByRole('button', { name: 'Close' }).click();
+  await openWhole(page, 'plate.obj', obj({ points: points.slice(0, 4), triangles: triangles.slice(0, 2) }));
+  await shows('60', '');
+  // Of a plate nothing is folded or joined.
+  assert.equal(await page.locator('#save-title').innerText(), 'Cut-out sheets: 60 mm, 1 page');
+  assert.equal(await page.locator('.sheets').getByText(/letter|fold/).filter({ visible: true }).count(), 0);
+});
+
+doorTest('the picture of the sheets stays in view beside the fields, above the formats and Save, and can be enlarged', async (page) => {
+  await openWhole(page, 'box.obj', obj({ points, triangles }));
+  await page.locator('#end-sheets').click();
+  const image = page.locator('.preview[aria-busy="false"] img');
+  await image.waitFor();
+  await page.locator('.sheets-options').evaluate((box) => (box.scrollTop = box.scrollHeight));
+  const [picture, kerf, format, save] = await Promise.all([image, page.getByLabel('Kerf'), page.getByRole('radio', { name: /^DXF / }), page.locator('#save-now')].map((one) => one.boundingBox()));
+  assert.ok(picture && kerf && format && save);
+  assert.ok(picture.y > 0 && kerf.y > 0 && picture.y + picture.height <= format.y && kerf.y < format.y && format.y < save.y && save.y < format.y + 110 && save.y < 800, JSON.stringify({ picture, kerf, format, save }));
+  await workBy(page, '.preview[aria-busy="true"]', () => page.getByRole('button', { name: 'Enlarge the picture' }).click());
+  assert.ok(Math.abs(((await image.boundingBox())?.width ?? 0) / picture.width - 3) < 0.2);
+}, { size: { width: 1280, height: 800 } });
 
 doorTest('what is chosen is there on the next visit, and a kerf makes sheets larger by its width', async (page) => {
   await openWhole(page, 'box.obj', obj({ points, triangles }));

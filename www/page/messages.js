@@ -11,34 +11,28 @@ export const PAGE_WORDS = {
   noFlat: 'No flat page from this outline.',
   unflattened: 'This outline cannot be made flat.',
   several: 'I found several pages. Take',
-  /** @param {number} n */
-  choosePage: (n) => `Page ${n}`,
-  /** @param {string} edge */
-  tooFarOutside: (edge) => `The ${edge} edge lies too far outside the photo. Take the photo anew, with the whole page in it`,
-  /** @param {string} paper */
-  looksLike: (paper) => `Looks like ${paper}: use it`,
+  choosePage: (/** @type {number} */ n) => `Page ${n}`,
+  tooFarOutside: (/** @type {string} */ edge) => `The ${edge} edge lies too far outside the photo. Take the photo anew, with the whole page in it`,
+  looksLike: (/** @type {string} */ paper) => `Looks like ${paper}: use it`,
   keptLight: 'The page is dark or not mostly paper, so I kept its light.',
 };
 
 /** Texts about several photos that become one PDF. */
 export const BOOK_WORDS = {
-  /** @param {number} n */
-  photos: (n) => `${count(n)} photos, one PDF:`,
+  photos: (/** @type {number} */ n) => `${count(n)} photos, one PDF:`,
   /** @param {number} n @param {string} name @param {string} [problem] */
   page: (n, name, problem) => `Photo ${n}, ${name}${problem ? ` (not in the PDF: ${problem})` : ''}`,
   earlier: '‹ Earlier',
   later: 'Later ›',
   remove: 'Remove photo',
   undo: 'Undo',
-  /** @param {string} name */
-  removed: (name) => `“${name}” is removed.`,
+  removed: (/** @type {string} */ name) => `“${name}” is removed.`,
   /** @param {number} added @param {number} all */
   added: (added, all) => `${added === 1 ? 'The photo is' : `${count(added)} photos are`} added: ${count(all)} photos, one PDF.`,
   alone: 'Open it alone',
   unfound: 'I did not find its page. Show this photo and drag the four corners onto the page',
   zip: 'a picture of each page',
-  /** @param {number} n */
-  pdf: (n) => `${n === 2 ? 'both' : `all ${count(n)}`} photos, a page each`,
+  pdf: (/** @type {number} */ n) => `${n === 2 ? 'both' : `all ${count(n)}`} photos, a page each`,
   /** @param {number} n @param {number} all */
   writing: (n, all) => `Flattening photo ${n} of ${all}…`,
 };

@@ -47,10 +47,7 @@ export class Outline {
     return new Outline(/** @type {Edges} */ ([[ul, ur], [ll, lr], [ul, ll], [ur, lr]].map((ends) => ends.map((place) => nodeAt(place, true)))));
   }
 
-  /**
-   * The default outline for a photo without a detected page: a rectangle in its middle.
-   * @param {{ width: number, height: number }} photo
-   */
+  /** The default outline for a photo without a detected page: a rectangle in its middle. @param {{ width: number, height: number }} photo */
   static defaultFor({ width, height }) {
     /** @type {(x: number, y: number) => Point} */
     const at = (x, y) => [x * (width - 1), y * (height - 1)];
@@ -129,11 +126,7 @@ export class Outline {
     return copy;
   }
 
-  /**
-   * Moves a node. The lines of its edges are forgotten.
-   * @param {NodeIndex} index
-   * @param {Point} to
-   */
+  /** Moves a node. The lines of its edges are forgotten. @param {NodeIndex} index @param {Point} to */
   move(index, [x, y]) {
     const moved = this.nodeOf(index);
     Object.assign(moved, { x, y });

@@ -26,13 +26,7 @@ const MAX_REDUCED_SIDE_PIXELS = 1280;
  * @property {PageOutlines} outlines of the detected pages, in pixels of the photo
  */
 
-/**
- * Opens a photo and detects the pages in it.
- * @param {Api} api
- * @param {File} file
- * @param {AbortSignal} signal
- * @returns {Promise<PagePhoto>}
- */
+/** Opens a photo and detects the pages in it. @param {Api} api @param {File} file @param {AbortSignal} signal @returns {Promise<PagePhoto>} */
 export async function openPhoto(api, file, signal) {
   const photo = await runInWorker(api, signal, (worker) => worker.readPhoto(file)).catch((/** @type {unknown} */ error) => {
     signal.throwIfAborted();

@@ -195,12 +195,7 @@ export class PageSession extends Events {
     this.#update();
   }
 
-  /**
-   * Moves a node.
-   * @param {NodeIndex} index
-   * @param {readonly [number, number]} to
-   * @param {boolean} ended whether the drag has ended
-   */
+  /** Moves a node. @param {NodeIndex} index @param {readonly [number, number]} to @param {boolean} ended whether the drag has ended */
   move(index, [x, y], ended) {
     const { photo, outline } = this;
     const node = outline.nodeOf(index);

@@ -54,11 +54,7 @@ export function galleryPanel(session, { adopt, choose, strip, enter, expectsInpu
     return session.example(example.name, { size, noise: example.noise });
   };
 
-  /**
-   * @param {Card} card
-   * @param {Partial<Settings>} [settings] default: the card's own
-   * @param {string} [view]
-   */
+  /** @param {Card} card @param {Partial<Settings>} [settings] default: the card's own @param {string} [view] */
   const show = async (card, settings = card.settings, view = card.view) => {
     dialog.close();
     enter();

@@ -8,12 +8,7 @@ import { PROGRESS_DELAY_MS } from './waiting.js';
 /** Maximum number of attempts to count the pieces: other analyses may cancel one. */
 const MAX_PIECE_COUNT_ATTEMPTS = 3;
 
-/**
- * @param {Session} session
- * @param {Analyses} analyses
- * @param {Stage} stage
- * @param {Subject} heights
- */
+/** @param {Session} session @param {Analyses} analyses @param {Stage} stage @param {Subject} heights */
 export function headlinePanel(session, analyses, stage, heights) {
   const main = element('verdict', HTMLElement);
   const page = element('page', HTMLElement);

@@ -39,11 +39,7 @@ export function watchDrops(onFiles) {
   });
 }
 
-/**
- * The dropped files, and those in dropped folders.
- * @param {DragEvent} event
- * @returns {Promise<File[]>}
- */
+/** The dropped files, and those in dropped folders. @param {DragEvent} event @returns {Promise<File[]>} */
 async function filesOf({ dataTransfer }) {
   // The browser clears `dataTransfer` when the event handler returns, so it is read before any `await`.
   const files = [...dataTransfer?.files ?? []];
@@ -55,11 +51,7 @@ async function filesOf({ dataTransfer }) {
   return [...files.filter(({ name }) => !names.includes(name)), ...folderFiles.flat()];
 }
 
-/**
- * The files of a folder, without hidden files and subfolders.
- * @param {FileSystemDirectoryEntry} folder
- * @returns {Promise<File[]>}
- */
+/** The files of a folder, without hidden files and subfolders. @param {FileSystemDirectoryEntry} folder @returns {Promise<File[]>} */
 async function filesIn(folder) {
   const reader = folder.createReader();
   /** @type {FileSystemEntry[]} */

@@ -2,7 +2,7 @@
 import { download, element } from '../dom.js';
 import { choiceOf } from '../fields.js';
 import { capitalised, percent, shortLambda } from '../format.js';
-import { lengthUnitOf } from '../pattern.js';
+import { lengthUnitOf, modelOf } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
 import { MESH_FIT_WORDS } from '../messages.js';
 import { boxOf, sidesOf } from '../surface/triangles.js';
@@ -90,6 +90,7 @@ export function meshFitPanel(session, meshFit, stage, heights) {
       const longest = Math.max(...sidesOf(surface.positions));
       offerSheets(session.api, {
         stem: stem(),
+        model: session.input ? modelOf(session.input) : '',
         length: longest,
         up: upAxis(),
         unit: lengthUnitOf({ ...session.input, kind: 'mesh', unit: surface.unit ?? undefined }),

@@ -134,7 +134,6 @@ export function offerToSave(api, { title, stem, ready = async () => {}, formats,
   };
   retryButton.onclick = () => void write();
   if (!dialog.open) dialog.showModal();
-  /** @type {HTMLElement | null} */ (list.querySelector('input:checked'))?.focus({ preventScroll: true });
   void write();
   return { renew: () => void write() };
 }

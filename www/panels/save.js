@@ -1,16 +1,12 @@
 /** What a result of heights is saved as: a 3D file, sheets to cut out. */
 import { percent, shortLambda } from '../format.js';
 import { MESH_FIT_WORDS } from '../messages.js';
-import { longerSide, cutSheets, lengthUnitOf } from '../pattern.js';
+import { longerSide, cutSheets, lengthUnitOf, modelOf } from '../pattern.js';
 import { offerSurface } from '../solid.js';
 import { latticePositions } from '../surface/lattice.js';
 import { offerSheets } from './sheets.js';
 
-/**
- * Offers the result as a file: images have the pixels of the input, meshes the vertices of the lattice.
- * @param {Api} api
- * @param {Result} result
- */
+/** Offers the result as a file: images have the pixels of the input, meshes the vertices of the lattice. @param {Api} api @param {Result} result */
 export async function offerFile(api, result) {
   // The page itself has to start where the package is missing, to say so.
   const { IMAGE_FILES } = await import('../../pkg/schema/image-files.js');
@@ -30,6 +26,7 @@ export function offerResultSheets(session, result, analyses, again) {
   const hidden = result.input.lattice?.hidden;
   offerSheets(session.api, {
     stem: fileStem(result),
+    model: modelOf(result.input),
     note: hidden ? MESH_FIT_WORDS.hidden(percent(hidden)) : '',
     length: longerSide(result),
     up: 'z',

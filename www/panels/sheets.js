@@ -23,6 +23,7 @@ const FIELDS = {
   'sheet-unit': { label: 'Unit of its lengths', options: { ...Object.fromEntries(Object.keys(MM_PER_UNIT).map((name) => [name, SHEET_WORDS.unit(name)])), none: 'none: choose the size' } },
   'sheet-side': { label: 'Longer side when finished, mm', range: between(MIN_SIDE_MM, MAX_SIDE_MM) },
   'sheet-paper': { label: 'Paper', options: { a4: 'A4', letter: 'Letter', '': 'one large page' } },
+  'sheet-fitting': { label: 'Pieces that fit one page', value: true },
   'sheet-material': { label: 'Material', options: { '': 'card or paper', metal: 'sheet metal' } },
   'sheet-tabs': { label: 'Tabs to glue', value: true },
   'sheet-tab-depth': { label: 'Tab depth, mm', range: between(1, 50) },
@@ -36,12 +37,13 @@ const FIELDS = {
 /** @typedef {keyof typeof FIELDS} FieldName */
 /** What was chosen last, on earlier visits too. */
 const lastOptions = {
-  'sheet-paper': /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', 'sheet-material': '', 'sheet-tabs': true, 'sheet-tab-depth': '6',
+  'sheet-paper': /^en-(US|CA)/.test(navigator.language) ? 'letter' : 'a4', 'sheet-fitting': true, 'sheet-material': '', 'sheet-tabs': true, 'sheet-tab-depth': '6',
   'sheet-thickness': '1', 'sheet-radius': '', 'sheet-k': '0.44', 'sheet-kerf': '0', ...kept('sheets', {}),
 };
-const REMEMBERED = /** @type {readonly (keyof typeof lastOptions)[]} */ (Object.keys(lastOptions));
-/** Sizes and units that were chosen last, by the name of the input. @type {Map<string, { side: number, unit: string }>} */
-const lastSizes = new Map();
+/** What was chosen last for the model whose sheets were shown last. @type {{ model: string, choice: Partial<Record<FieldName, string | boolean>> }} */
+let lastModel = kept('sheets of the model', { model: '', choice: {} });
+/** Fields whose choice belongs to the model. @type {readonly FieldName[]} */
+const OF_MODEL = ['sheet-unit', 'sheet-side', 'sheet-cut', 'sheet-join'];
 /** Length of a piece below which it can hardly be held, folded and glued, in millimetres. */
 const MIN_HANDY_PIECE_MM = 10;
 /** Number of joints above which a model takes more than an evening. */
@@ -55,6 +57,7 @@ const MAX_EXPECTED_PAGES = 12;
  * A surface that can be cut into sheets.
  * @typedef {object} SheetSource
  * @property {string} stem file name without ending
+ * @property {string} model what the size, cuts and folds are kept with
  * @property {number} length longer side, in the input's unit
  * @property {'y' | 'z'} up the axis that points upwards
  * @property {string} [note] note that says what the sheets lack
@@ -68,20 +71,13 @@ const MAX_EXPECTED_PAGES = 12;
  * @property {() => void} again offers the sheets of what was solved then
  */
 
-/**
- * Opens the dialog.
- * @param {Api} api
- * @param {SheetSource} source
- */
-export function offerSheets(api, { stem, note = '', length, unit, up, cut, metalThickness, canFoldElsewhere, stop, isFitted, solved, again: offerAgain }) {
+/** Opens the dialog. @param {Api} api @param {SheetSource} source */
+export function offerSheets(api, { stem, model, note = '', length, unit, up, cut, metalThickness, canFoldElsewhere, stop, isFitted, solved, again: offerAgain }) {
   const suggested = suggestedSide(length, unit);
-  // A size that is not the true one goes by no unit.
-  const [name] = stem.split('-developable');
-  const last = lastSizes.get(name) ?? { unit: suggested === trueSide(length, unit) ? unit : 'none', side: suggested };
   const fields = fieldsOf(FIELDS);
-  for (const option of REMEMBERED) fields.set(option, lastOptions[option]);
-  fields.set('sheet-unit', last.unit);
-  fields.set('sheet-side', last.side);
+  // A size that is not the true one goes by no unit.
+  const choice = { ...lastOptions, 'sheet-unit': suggested === trueSide(length, unit) ? unit : 'none', 'sheet-side': suggested, ...(lastModel.model === model && lastModel.choice) };
+  for (const [name, value] of Object.entries(choice)) fields.set(/** @type {FieldName} */ (name), value);
   fields.show(unit !== 'none', 'sheet-unit');
   const [detail, pageDetail] = [fields.control('sheet-detail'), element('lambda', HTMLInputElement)];
   Object.assign(detail, { type: 'range', min: pageDetail.min, max: pageDetail.max, step: pageDetail.step, value: pageDetail.value });
@@ -91,13 +87,16 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
   const metalNote = make('p', 'muted small');
   /** Thickness of a solid of sheet metal. @type {number | undefined} */
   let thickness;
-  // Only flat faces can be cut apart anywhere: nothing of them is stretched.
-  const edges = make('div', 'edges', make('p', 'small', SHEET_WORDS.edges), make('details', 'more', make('summary', 'small', SHEET_WORDS.byNumber), ...fields.nodes('sheet-cut', 'sheet-join')));
+  const byNumber = make('details', 'more', make('summary', 'small', SHEET_WORDS.byNumber), ...fields.nodes('sheet-cut', 'sheet-join'));
+  const edges = make('div', 'edges', make('p', 'small', SHEET_WORDS.edges), byNumber);
   edges.hidden = true;
+  /** Number of pieces of the last drawing. */
+  let pieces = Infinity;
   /** @returns {CutOptions} */
   const cutOptions = () => ({
     ...(fields.text('sheet-cut').trim() && { cut: parsePairs(fields.text('sheet-cut')) ?? [] }),
     ...(fields.text('sheet-join').trim() && { join: parsePairs(fields.text('sheet-join')) ?? [] }),
+    ...(!isMetal() && fields.isChecked('sheet-fitting') && { stock: paper() || undefined }),
     side: side(),
     kerf: fields.number('sheet-kerf'),
     ...(isMetal()
@@ -105,8 +104,9 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
       : { tabs: fields.isChecked('sheet-tabs') ? fields.number('sheet-tab-depth') : undefined }),
   });
   const keepOptions = () => {
-    for (const name of REMEMBERED) Object.assign(lastOptions, { [name]: name === 'sheet-tabs' ? fields.isChecked(name) : fields.text(name) });
-    keep('sheets', lastOptions);
+    const values = /** @param {readonly string[]} names */ (names) => fields.values(...(/** @type {readonly FieldName[]} */ (names)));
+    keep('sheets', Object.assign(lastOptions, values(Object.keys(lastOptions))));
+    keep('sheets of the model', lastModel = { model, choice: values(OF_MODEL) });
   };
   const showFields = () => {
     fields.show(!isMetal(), 'sheet-tabs');
@@ -161,11 +161,12 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
     const stock = paper();
     const pages = stock === '' ? 1 : summary[stock];
     element('save-title', HTMLElement).textContent = SHEET_WORDS.headline(number(side(), 4), pages, summary.seams, finished.sheets.length > 1 ? number(smallest, 2) : undefined);
+    legend.textContent = SHEET_WORDS.legend(summary);
     // Tabs stay as deep as they are.
     const beside = cutOptions().tabs ? 2 * fields.number('sheet-tab-depth') : 0;
     const room = stock === '' ? [] : PAPERS[stock].map((length) => length - 2 * PAGE_MARGIN_MM - beside);
     const shares = finished.sheets.map(({ bounds: [[left, bottom], [right, top]] }) => [right - left, top - bottom].sort((a, b) => a - b).map((length, k) => room[k] / (length - beside))).flat();
-    const fitting = Math.floor(10 * side() * Math.min(...shares)) / 10;
+    const fitting = Math.floor(side() * Math.min(...shares));
     fit.hidden = !(pages > finished.sheets.length && fitting >= MIN_SIDE_MM && fitting < side());
     [fit.value, fit.textContent] = [String(fitting), SHEET_WORDS.fit(number(fitting, 4))];
     const warnings = [...(pages > MAX_EXPECTED_PAGES ? [SHEET_WORDS.manyPages(pages)] : []), ...(smallest < MIN_HANDY_PIECE_MM ? [SHEET_WORDS.small(number(smallest, 2))] : summary.seams > MAX_EASY_JOINTS ? [SHEET_WORDS.long(summary.seams)] : [])];
@@ -185,7 +186,6 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
       clear();
       return offer.renew();
     }
-    lastSizes.set(name, { side: side(), unit: fields.text('sheet-unit') });
     keepOptions();
     status.textContent = '';
     again.hidden = true;
@@ -199,12 +199,16 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
       requested.catch(() => {});
       thickness = await metalThickness();
       showFields();
-      const image = await drawingImage(api, await requested);
+      const image = await drawingImage(api, await requested, preview, zoom);
       if (requested !== drawing) return;
       const finished = await requested;
       waiting.end();
       showSize(finished);
-      edges.hidden = !canFoldElsewhere(finished);
+      // Only flat faces can be cut apart anywhere: nothing of them is stretched.
+      const isExact = canFoldElsewhere(finished);
+      edges.hidden = !isExact || finished.summary.folds + finished.summary.seams === 0;
+      fields.show(isExact && !isMetal() && paper() !== '', 'sheet-fitting');
+      pieces = Math.max(...finished.sheets.flatMap((sheet) => sheet.patches)) + 1;
       image.addEventListener('click', ({ offsetX, offsetY }) => {
         if (!edges.hidden) toggleEdge(finished, [(offsetX / image.clientWidth) * finished.width, (1 - offsetY / image.clientHeight) * finished.height]);
       });
@@ -216,7 +220,13 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
       preview.replaceChildren();
       clear();
       const reason = plainMessage(error);
-      status.textContent = hasCode(error, 'CURVED_FOLD') ? SHEET_WORDS.curvedFold : SHEET_WORDS.uncut(reason);
+      const [, ...pair] = /patches (\d+) and (\d+) have no edge/.exec(reason)?.map(Number) ?? [];
+      status.textContent = pair.length > 0 ? '' : hasCode(error, 'CURVED_FOLD') ? SHEET_WORDS.curvedFold : SHEET_WORDS.uncut(reason);
+      for (const name of /** @type {const} */ (['sheet-cut', 'sheet-join'])) {
+        if (!parsePairs(fields.text(name))?.some((one) => String(one) === String(pair))) continue;
+        [edges.hidden, byNumber.open] = [false, true];
+        fields.blame(name, SHEET_WORDS.noEdgeBetween(pair, pieces));
+      }
       failed = true;
     } finally {
       if (requested === drawing) {
@@ -255,16 +265,25 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
     if (options.isConnected) offerAgain();
   });
   let inputTimer = 0;
+  const legend = make('p', 'muted small');
+  let zoom = 1;
+  const enlarge = makeButton('', () => {
+    zoom = zoom === 1 ? 3 : 1;
+    preview.style.setProperty('--zoom', String(zoom));
+    enlarge.setAttribute('aria-pressed', String(zoom > 1));
+    void draw();
+  }, SHEET_WORDS.enlarge);
   const options = make('div', 'sheets-options',
     status,
-    make('p', 'muted small', SHEET_WORDS.legend),
     pageWarning,
+    legend,
+    enlarge,
     fit,
     ...(note ? [make('p', 'small', note)] : []),
     waitingElement,
     again,
     ...(isFitted ? fields.nodes('sheet-detail') : []),
-    ...fields.nodes('sheet-unit', 'sheet-side', 'sheet-paper', 'sheet-material', 'sheet-tabs', 'sheet-tab-depth'),
+    ...fields.nodes('sheet-unit', 'sheet-side', 'sheet-paper', 'sheet-fitting', 'sheet-material', 'sheet-tabs', 'sheet-tab-depth'),
     metalNote,
     ...fields.nodes('sheet-thickness', 'sheet-radius', 'sheet-k', 'sheet-kerf'),
     edges,
@@ -272,11 +291,6 @@ export function offerSheets(api, { stem, note = '', length, unit, up, cut, metal
   options.addEventListener('input', ({ target }) => {
     clearTimeout(inputTimer);
     if (target === detail) return;
-    if (target === fields.control('sheet-paper')) {
-      keepOptions();
-      void drawing.then(showSize, () => {});
-      return offer.renew();
-    }
     if (target === fields.control('sheet-unit')) {
       const side = trueSide(length, fields.text('sheet-unit'));
       fields.set('sheet-side', Number.isNaN(side) ? suggested : side);

@@ -13,12 +13,7 @@ const LINE_WIDTH_PIXELS = 3;
 /** Number of places of a sheet at which its number may stand, the middle first. */
 const NUMBER_PLACES = 40;
 
-/**
- * Draws a pattern's assembly.
- * @param {Drawing} drawing
- * @param {'y' | 'z'} up the axis that points upwards
- * @returns {Promise<Blob>} a PNG
- */
+/** Draws a pattern's assembly. @param {Drawing} drawing @param {'y' | 'z'} up the axis that points upwards @returns {Promise<Blob>} a PNG */
 export async function builtPicture(drawing, up) {
   const { positions, triangles, sheets } = assemblyOf(drawing);
   const scene = await SceneView.create(document.createElement('canvas'), PICTURE_SIZE);
@@ -52,11 +47,7 @@ export async function builtPicture(drawing, up) {
   return picture.convertToBlob({ type: 'image/png' });
 }
 
-/**
- * The middles of triangles, from the middle of all outwards.
- * @param {Uint32Array} triangles
- * @param {Float64Array} positions
- */
+/** The middles of triangles, from the middle of all outwards. @param {Uint32Array} triangles @param {Float64Array} positions */
 function placesOf(triangles, positions) {
   /** @param {ArrayLike<number>} vertices */
   const middleOf = (vertices) => /** @type {Vector} */ (/** @type {unknown} */ ([0, 1, 2].map((k) => Array.from(vertices).reduce((sum, vertex) => sum + positions[3 * vertex + k], 0) / vertices.length)));

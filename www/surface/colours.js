@@ -20,11 +20,7 @@ export const COLOUR_SCALE_QUANTILE = 0.99;
 /** Number of values that are sorted for a quantile, about. */
 const QUANTILE_SAMPLE_VALUES = 30_000;
 
-/**
- * The colour of a value in the diverging colour map.
- * @param {number} t from -1 to 1
- * @returns {Colour}
- */
+/** The colour of a value in the diverging colour map. @param {number} t from -1 to 1 @returns {Colour} */
 export function divergingColour(t) {
   const place = ((Math.min(1, Math.max(-1, t)) + 1) / 2) * (DIVERGING.length - 1);
   const i = Math.min(DIVERGING.length - 2, Math.floor(place));
@@ -87,12 +83,7 @@ function powerOfTen(power) {
   return power >= -2 && power <= 3 ? number(10 ** power) : `10${superscript(power)}`;
 }
 
-/**
- * A linear scale with five ticks.
- * @param {number} maximum value at the end of the scale
- * @param {(value: number) => string} label
- * @returns {Scale}
- */
+/** A linear scale with five ticks. @param {number} maximum value at the end of the scale @param {(value: number) => string} label @returns {Scale} */
 export function linearScale(maximum, label) {
   return {
     place: (value) => value / maximum,

@@ -3,10 +3,7 @@ import { ROW_SPACING_RATIO } from './lattice.js';
 
 /** @typedef {import('../../pkg/types.js').PatchMap} PatchMap */
 
-/**
- * Maximum total curvature of patches that are sheets. Examples made of sheets have 0.4 at most, a bust 0.7 and 1.8, mountains
- * 10.
- */
+/** Maximum total curvature of patches that are sheets. Examples made of sheets have 0.4 at most, a bust 0.7 and 1.8, mountains 10. */
 export const MAX_SHEET_CURVATURE_RADIANS = 0.6;
 /** Share of the vertices that are counted. The others have the largest curvature: tips of cones and lines. */
 const KEPT_VERTEX_SHARE = 0.95;

@@ -38,11 +38,7 @@ export function gridOf({ width, height, pixelSize, lattice }) {
   return lattice ? gridOverLattice(lattice) : { width, height, pixelSize, left: 0, top: height * pixelSize };
 }
 
-/**
- * Pixels that cover a lattice and are as wide as its spacing.
- * @param {Lattice} lattice
- * @returns {Grid}
- */
+/** Pixels that cover a lattice and are as wide as its spacing. @param {Lattice} lattice @returns {Grid} */
 export function gridOverLattice({ rows, cols, spacing, origin = [0, 0] }) {
   return {
     width: cols,
@@ -77,12 +73,7 @@ export function interpolatorOf({ rows, cols, spacing, origin = [0, 0] }, values,
   };
 }
 
-/**
- * Interpolates values of a lattice at the pixels of a grid.
- * @param {Lattice} lattice
- * @param {ArrayLike<number>} values
- * @param {Grid} grid
- */
+/** Interpolates values of a lattice at the pixels of a grid. @param {Lattice} lattice @param {ArrayLike<number>} values @param {Grid} grid */
 export function interpolateToGrid(lattice, values, { width, height, pixelSize, left, top }) {
   const at = interpolatorOf(lattice, values);
   return Float64Array.from({ length: width * height }, (_, i) => at(left + (i % width + 0.5) * pixelSize, top - (Math.floor(i / width) + 0.5) * pixelSize));
@@ -98,12 +89,7 @@ function clampToRange(place, count) {
   return Math.abs(place - inside) < 0.6 ? inside : NaN;
 }
 
-/**
- * A neighbour without weight need not be there.
- * @param {number} a
- * @param {number} b
- * @param {number} share
- */
+/** A neighbour without weight need not be there. @param {number} a @param {number} b @param {number} share */
 function interpolate(a, b, share) {
   if (share < 1e-9) return a;
   return share > 1 - 1e-9 ? b : a * (1 - share) + b * share;

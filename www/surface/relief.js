@@ -82,11 +82,7 @@ export function reliefMesh({ width, height, heights, heightScale, extent }, isFa
   return corners > 0 ? { positions, triangles: triangles.subarray(0, corners) } : null;
 }
 
-/**
- * The bounding box of an input's heights without outliers, which would make the rest small.
- * @param {Input} input
- * @returns {Box}
- */
+/** The bounding box of an input's heights without outliers, which would make the rest small. @param {Input} input @returns {Box} */
 export function heightfieldBox(input) {
   const { width, height, pixelSize, left, top } = gridOf(input);
   const sorted = sortedSample([input.data], (value) => value * input.heightScale);

@@ -1,5 +1,5 @@
 /** The view of the flat surface, cut into sheets if it would stretch in one piece. */
-import { make } from '../dom.js';
+import { element, make } from '../dom.js';
 import { CREASE_COLOUR, toCss, FOLD_COLOURS } from '../surface/colours.js';
 import { imagePicture } from '../surface/picture-view.js';
 import { longerSide, suggestedSide, sheetFigures, sheetsInWords, cutSheets, drawingImage } from '../pattern.js';
@@ -21,7 +21,7 @@ export async function flat(api, analyses, result, tell) {
   // If cutting fails, the surface is shown in one piece with its strain.
   const drawing = await cutSheets(analyses, result, { side: suggestedSide(longerSide(result), result.input.unit) }, tell).catch(() => null);
   if (!drawing) return whole();
-  const picture = imagePicture(await drawingImage(api, drawing), sheetsInWords(drawing));
+  const picture = imagePicture(await drawingImage(api, drawing, element('space', HTMLElement)), sheetsInWords(drawing));
   const isFolded = drawing.sheets.some(({ folds }) => folds.length > 0);
   return {
     flat: picture,

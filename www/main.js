@@ -47,7 +47,7 @@ async function start() {
   reportPanel(session, analyses);
   headlinePanel(session, analyses, stage, heights);
   const source = sourcePanel(session, adopt, stage.choose, (files) => void addressSync.rememberFiles(files), meshFitView.begin, (file) => void files.openColour(file));
-  const page = pagePanel(session.api, (photos) => void addressSync.rememberPhotos(photos), (states) => addressSync.rememberOutlines(states));
+  const page = pagePanel(session.api, (photos, shown) => void addressSync.rememberPhotos(photos, shown), (states, shown) => addressSync.rememberOutlines(states, shown));
   const mode = modePanel(session, (entered) => {
     if (entered === 'photo') page.begin();
     addressSync.onModeChange();

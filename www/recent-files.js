@@ -1,7 +1,7 @@
 /** Storage of the files that were opened last, in IndexedDB, so that a reload of the page can open them again. */
 
 /** @typedef {{ id?: number, files: File[], time: number, arePhotos?: boolean }} RecentFiles `arePhotos`: whether they are photos of pages */
-/** @typedef {{ id: number, states: (PageState | null)[] }} StoredOutlines outlines of the photos of an entry, which change more often than the files */
+/** @typedef {{ id: number, states: (PageState | null)[], shown?: number }} StoredOutlines outlines of the photos of an entry, and which photo is shown: these change more often than the files */
 
 const DATABASE_NAME = 'developable';
 /** Maximum number of entries in the storage. */
@@ -56,15 +56,15 @@ export async function storedFiles(id) {
   return /** @type {RecentFiles | undefined} */ (entry)?.files;
 }
 
-/** The outlines of the photos of one entry; an empty list if there are none. @param {number} id */
+/** The outlines of the photos of one entry; an empty list if there are none. @param {number} id @returns {Promise<StoredOutlines>} */
 export async function storedOutlines(id) {
   const entry = await requestStore('outlines', 'readonly', (outlines) => outlines.get(id)).catch(() => undefined);
-  return /** @type {StoredOutlines | undefined} */ (entry)?.states ?? [];
+  return entry ?? { id, states: [] };
 }
 
-/** Stores the outlines of the photos of one entry, if the browser stores anything. @param {number} id @param {(PageState | null)[]} states */
-export async function storeOutlines(id, states) {
-  await requestStore('outlines', 'readwrite', (outlines) => outlines.put({ id, states })).catch(() => {});
+/** Stores the outlines of the photos of one entry, if the browser stores anything. @param {StoredOutlines} stored */
+export async function storeOutlines(stored) {
+  await requestStore('outlines', 'readwrite', (outlines) => outlines.put(stored)).catch(() => {});
 }
 
 /**

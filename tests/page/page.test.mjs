@@ -142,7 +142,6 @@ doorTest('corners are dragged where the outline is doubtful, and edges are trace
 });
 
 doorTest('a page that is not found has no flat page, no figure and no file until its corners are placed', async (page) => {
-  await openPhoto(page, 'letter.png', photo);
   await openPhoto(page, 'dots.png', hidden);
   const [verdict, detail] = [page.locator('#flat-verdict'), page.locator('#flat-detail')];
   const save = page.locator('#page-save');
@@ -182,6 +181,11 @@ doorTest('photos that are opened together become one PDF, each with its own outl
   // The third one is not found, and cannot be written until it is put right or taken out.
   await numbers.nth(2).click();
   await page.locator('#page-side[data-state="unfound"]').waitFor();
+  // The others are saved from there, too.
+  await page.getByRole('button', { name: 'Save the flat page…' }).click();
+  assert.match(await page.locator('#save-formats').innerText(), /^PDF 2 of 3 photos, a page each; no page in “none\.png”\s+ZIP [^\n]*$/);
+  await page.locator('#save-size', { hasText: /one-pages\.pdf, / }).waitFor();
+  await page.locator('#save-dialog').evaluate((dialog) => /** @type {HTMLDialogElement} */ (dialog).close());
   await numbers.nth(1).click();
   await page.locator('#page-caption', { hasText: 'two' }).waitFor();
   await flattened(page);
@@ -215,23 +219,36 @@ doorTest('photos that are opened together become one PDF, each with its own outl
   const pictures = unzipSync((await savedPage(page, 'ZIP')).bytes);
   assert.deepEqual(Object.entries(pictures).map(([name, picture]) => [name, picture[0], picture[1]]), [['one-1.jpg', 0xff, 0xd8], ['one-2.jpg', 0xff, 0xd8]]);
   // Another photo is added; all of them are there after a reload, as they were left.
-  await drop(page, 'four.png', photo);
+  await drop(page, 'photograph_four.png', photo);
   await page.locator('#page-caption', { hasText: 'four' }).waitFor();
+  assert.equal(await numbers.nth(3).innerText(), '4 …aph_four');
   await flattened(page);
   assert.equal(await numbers.count(), 4);
   await page.waitForURL(/file=\d+&photo=1/);
-  await page.waitForFunction(() => new Promise((resolve) => {
+  // Format and light are each photo's own; one that was not looked at yet begins with the light that was chosen last.
+  const [format, light] = [page.getByLabel('Page format'), page.getByLabel('Light on the paper')];
+  await format.selectOption('letter');
+  await light.selectOption('ink');
+  await flattened(page);
+  const isStored = () => page.evaluate(() => new Promise((resolve) => {
     const opening = indexedDB.open('developable');
     opening.onsuccess = () => {
       const stored = opening.result.transaction('outlines').objectStore('outlines').getAll();
-      stored.onsuccess = () => resolve(stored.result.some(({ states }) => states[3]));
+      stored.onsuccess = () => resolve(stored.result.some(({ states }) => states[3]?.known.light === 'ink'));
       opening.result.close();
     };
   }));
+  while (!(await isStored())) await page.waitForTimeout(100);
   await page.reload();
-  await page.locator('#page-caption', { hasText: 'one' }).waitFor();
+  await page.locator('#page-caption', { hasText: 'four' }).waitFor();
   await flattened(page);
   assert.equal(await numbers.count(), 4);
+  assert.deepEqual([await format.inputValue(), await light.inputValue()], ['letter', 'ink']);
+  await numbers.nth(0).click();
+  await page.locator('#page-caption', { hasText: 'one' }).waitFor();
+  await flattened(page);
+  assert.deepEqual([await format.inputValue(), await light.inputValue()], ['', 'even']);
+  await page.getByRole('button', { name: 'Looks like A4: use it' }).waitFor();
   assert.deepEqual(await placeOf(page, 'Upper left corner'), placed, 'as it was left');
 });
 

@@ -3,6 +3,7 @@ import { plainMessage } from '../error-messages.js';
 import { BOOK_WORDS } from './messages.js';
 import { runInWorker } from '../worker-task.js';
 import { flattenReducedPhoto, flattenWholePhoto } from './flatten.js';
+import { optionsOf } from './known.js';
 import { pictureFiles } from './paper.js';
 import { openPhoto } from './photo.js';
 
@@ -82,9 +83,10 @@ export class Book {
         const { file, state } = entry;
         const photo = await openPhoto(api, file, signal);
         const [quarters, traces] = [state?.quarters ?? 0, state?.traces ?? detectedTraces(photo)];
-        const request = { photo, traces, options: session.options, isDetected: !state?.movedCorners.size, moving: false };
+        const options = optionsOf(state?.known);
+        const request = { photo, traces, options, isDetected: !state?.movedCorners.size, moving: false };
         const flat = await runInWorker(api, signal, async (own) => flattenWholePhoto(own, request, await flattenReducedPhoto(own, request)));
-        pages.push(...await pictureFiles(worker, flat, traces[0].length, quarters, paper, { ink: session.options.ink, text }));
+        pages.push(...await pictureFiles(worker, flat, traces[0].length, quarters, paper, { ink: options.ink, text }));
       } catch (error) {
         signal.throwIfAborted();
         entry.problem = plainMessage(error);
@@ -92,6 +94,11 @@ export class Book {
     }
     if (pages.length === 0) throw new Error(this.problems().join('; '));
     return pages;
+  }
+
+  /** The photos that are known to have no page. @param {PageSession} session session of the photo that is shown */
+  unfound(session) {
+    return this.photos.filter(({ file, state }) => (file === session.photo?.file ? session.unplacedCorners > 0 : state?.traces === null));
   }
 
   /** The photos that are left out, each with the reason. */

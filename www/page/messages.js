@@ -14,6 +14,8 @@ export const PAGE_WORDS = {
   choosePage: (/** @type {number} */ n) => `Page ${n}`,
   tooFarOutside: (/** @type {string} */ edge) => `The ${edge} edge lies too far outside the photo. Take the photo anew, with the whole page in it`,
   looksLike: (/** @type {string} */ paper) => `Looks like ${paper}: use it`,
+  light: 'Removes shadows and colour casts. Very pale print may vanish.',
+  unfoundFlat: 'No page was found in this photo',
   keptLight: 'The page is dark or not mostly paper, so I kept its light.',
 };
 
@@ -22,6 +24,7 @@ export const BOOK_WORDS = {
   photos: (/** @type {number} */ n) => `${count(n)} photos, one PDF:`,
   /** @param {number} n @param {string} name @param {string} [problem] */
   page: (n, name, problem) => `Photo ${n}, ${name}${problem ? ` (not in the PDF: ${problem})` : ''}`,
+  ownOptions: ' Format and light are those of this photo; photos that you have not looked at yet begin with this light.',
   earlier: '‹ Earlier',
   later: 'Later ›',
   remove: 'Remove photo',
@@ -32,7 +35,8 @@ export const BOOK_WORDS = {
   alone: 'Open it alone',
   unfound: 'I did not find its page. Show this photo and drag the four corners onto the page',
   zip: 'a picture of each page',
-  pdf: (/** @type {number} */ n) => `${n === 2 ? 'both' : `all ${count(n)}`} photos, a page each`,
+  /** @param {number} n @param {readonly string[]} without names of photos without a page */
+  pdf: (n, without) => (without.length > 0 ? `${n - without.length} of ${n} photos, a page each; no page in ${without.join(', ')}` : `${n === 2 ? 'both' : `all ${count(n)}`} photos, a page each`),
   /** @param {number} n @param {number} all */
   writing: (n, all) => `Flattening photo ${n} of ${all}…`,
 };

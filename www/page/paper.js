@@ -42,7 +42,7 @@ export async function pictureFiles(worker, flat, pages, quarters, paper, { ink =
     const words = text ? await linesIn(new ImageData(data, width, height)) : [];
     const picture = await worker.writePhoto({ width, height, data }, { format: ink ? 'png' : 'jpeg' });
     const size = /** @type {[number, number]} */ (paper ? [...paper] : [width / flat.resolution, height / flat.resolution]);
-    pictures.push({ picture, size, words });
+    pictures.push({ picture, size, words, ending: ink ? 'png' : 'jpg' });
   }
   return pictures;
 }

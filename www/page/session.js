@@ -1,10 +1,12 @@
 /** The state of “Flatten a photo of a page” without its elements: a photo, the outline of the page in it, and the options. */
 import { Events } from '../events.js';
 import { flattenReducedPhoto, rescaleLine, tracedEdges } from './flatten.js';
+import { firstKnown, optionsOf } from './known.js';
 import { findGutter } from './gutter.js';
 import { EDGE_NAMES, EDGES, Outline } from './outline.js';
 
-/** @import {Line, Options, Traces, FlattenRequest} from './flatten.js' */
+/** @import {Line, Traces, FlattenRequest} from './flatten.js' */
+/** @import {Known} from './known.js' */
 /** @import {Edge, NodeIndex} from './outline.js' */
 
 /**
@@ -19,7 +21,7 @@ import { EDGE_NAMES, EDGES, Outline } from './outline.js';
  * @property {unknown} problem error that prevents a flat page
  */
 /** @typedef {{ outline: Outline, movedCorners: ReadonlySet<number>, pageIndex: number }} Snapshot */
-/** @typedef {Snapshot & { quarters: number, traces: Traces | null }} PageState the outline of the page in a photo, without its pixels; what a browser has kept of it is data without methods. `traces`: null as long as the page is not found */
+/** @typedef {Snapshot & { quarters: number, known?: Known, traces: Traces | null }} PageState the outline of the page in a photo, without its pixels; what a browser has kept of it is data without methods. `traces`: null as long as the page is not found */
 
 /** Maximum distance of a corner outside the photo, in diagonals of the photo: less than what the package accepts. */
 const MAX_CORNER_OUTSIDE_DIAGONALS = 0.045;
@@ -38,8 +40,8 @@ export class PageSession extends Events {
   traces = [[], [], [], []];
   /** Detected lines of text. @type {Line[]} */
   foundLines = [];
-  /** @type {Options} */
-  options = {};
+  /** What is known of the page. @type {Known} */
+  known = firstKnown();
 
   /** Number of clockwise quarter turns of the flat page. */
   quarters = 0;
@@ -95,7 +97,7 @@ export class PageSession extends Events {
   show(photo, pages = 1, state = null) {
     this.photo = photo;
     [this.foundLines, this.#flat, this.#history] = [[], null, []];
-    [this.pageIndex, this.#dragging, this.quarters] = [0, false, 0];
+    [this.pageIndex, this.#dragging, this.quarters, this.known] = [0, false, 0, state?.known ?? firstKnown()];
     this.#resetOutline(photo, pages);
     if (state) {
       const { outline, movedCorners, pageIndex, quarters } = state;
@@ -150,8 +152,8 @@ export class PageSession extends Events {
 
   /** The state to restore when the photo is shown again. @returns {PageState} */
   state() {
-    const { outline, movedCorners, pageIndex, quarters } = this;
-    return { outline: Outline.copyOf(outline), movedCorners, pageIndex, quarters, traces: this.unplacedCorners > 0 ? null : this.#outlineTraces() };
+    const { outline, movedCorners, pageIndex, quarters, known } = this;
+    return { outline: Outline.copyOf(outline), movedCorners, pageIndex, quarters, known, traces: this.unplacedCorners > 0 ? null : this.#outlineTraces() };
   }
 
   /** Undoes the last change of the outline. */
@@ -189,9 +191,14 @@ export class PageSession extends Events {
     if (this.#flat) this.emit('flat', { flat: this.#flat, moving: false });
   }
 
-  /** Sets the options of flattening. @param {Options} options */
-  setOptions(options) {
-    this.options = options;
+  /** The options of flattening. */
+  get options() {
+    return optionsOf(this.known);
+  }
+
+  /** Sets what is known of the page. @param {Known} known */
+  setKnown(known) {
+    this.known = known;
     this.#update();
   }
 

@@ -23,7 +23,7 @@ import { showNotice } from './notice.js';
  * @param {(change: Partial<StoredHeights>) => void} page.reinterpretFile
  * @param {{ find: (id: string) => Card | undefined, show: (card: Card, settings?: Partial<Settings>, view?: string) => Promise<void>, present: Card | null }} page.gallery
  * @param {{ readonly now: Mode, show: (mode: Mode) => void }} page.mode
- * @param {(files: readonly File[], states: readonly (PageState | null)[]) => Promise<unknown>} page.openPhotos opens photos of pages that were stored
+ * @param {(files: readonly File[], states: readonly (PageState | null)[], shown?: number) => Promise<unknown>} page.openPhotos opens photos of pages that were stored
  * @param {() => void} page.beginPhoto shows an example if no photo of a page is open
  * @param {() => void} page.showExamplePhoto shows an example in the place of the photo of a page that is open
  * @param {MeshFit} page.meshFit
@@ -117,7 +117,8 @@ export function addressSyncPanel(session, page) {
     const files = await storedFiles(id);
     if (!files) return false;
     [photoId, photos] = [id, files];
-    await page.openPhotos(files, await storedOutlines(id));
+    const { states, shown } = await storedOutlines(id);
+    await page.openPhotos(files, states, shown);
     return true;
   };
 
@@ -233,21 +234,21 @@ export function addressSyncPanel(session, page) {
       void updateRecentFiles();
       writeAddress();
     },
-    /** Stores the photos of pages that are open, with their outlines. @param {readonly BookPhoto[]} opened none for an example */
-    async rememberPhotos(opened) {
+    /** Stores the photos of pages that are open, with their outlines. @param {readonly BookPhoto[]} opened none for an example @param {number} shown index of the one that is shown */
+    async rememberPhotos(opened, shown) {
       const before = photos;
       photos = opened.map(({ file }) => file);
       // Photos that are added, moved or removed change the entry of those that were open.
       const id = photos.some((file) => before.includes(file)) ? photoId : undefined;
       if (photos.length !== before.length || photos.some((file, i) => file !== before[i])) photoId = photos.length > 0 ? await storeFiles(photos, { arePhotos: true, id }) : undefined;
       isUnstored = photos.length > 0 && photoId === undefined;
-      this.rememberOutlines(opened.map(({ state }) => state));
+      this.rememberOutlines(opened.map(({ state }) => state), shown);
       void updateRecentFiles();
       writeAddress();
     },
-    /** Stores the outlines of the photos of pages that are open. @param {(PageState | null)[]} states */
-    rememberOutlines(states) {
-      if (photoId !== undefined) void storeOutlines(photoId, states);
+    /** Stores the outlines of the photos of pages that are open. @param {(PageState | null)[]} states @param {number} shown */
+    rememberOutlines(states, shown) {
+      if (photoId !== undefined) void storeOutlines({ id: photoId, states, shown });
     },
     /** Updates the address after the other part of the page was shown. */
     onModeChange() {

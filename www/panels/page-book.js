@@ -1,4 +1,5 @@
 /** Buttons for the photos of a book: one for each photo, and those that move or remove the present one. */
+import { stemOf } from '../file-kinds.js';
 import { element, make, makeButton } from '../dom.js';
 import { BOOK_WORDS } from '../page/messages.js';
 
@@ -31,7 +32,7 @@ export function pageBookPanel(book, show, remove, onMoved) {
     list.hidden = photos.length < 2;
     if (list.hidden) return list.replaceChildren();
     const buttons = photos.map(({ file, problem }, i) => {
-      const button = makeButton('page-button', () => show(i), thumbnailOf(file), make('span', '', `${i + 1} ${file.name}`));
+      const button = makeButton('page-button', () => show(i), thumbnailOf(file), make('span', '', `${i + 1} ${shortened(stemOf(file))}`));
       button.title = problem ? `${file.name}: ${problem}` : file.name;
       button.setAttribute('aria-label', BOOK_WORDS.page(i + 1, file.name, problem));
       button.setAttribute('aria-pressed', String(i === index));
@@ -43,6 +44,9 @@ export function pageBookPanel(book, show, remove, onMoved) {
   };
   return { renew };
 }
+
+/** The end of a long name, since photos of one series begin alike. @param {string} name */
+const shortened = (name) => (name.length > 9 ? `…${name.slice(-8)}` : name);
 
 /** A small picture of a photo; it stays empty if the browser cannot decode the file. @param {File} file */
 function thumbnailOf(file) {

@@ -58,6 +58,8 @@ export function pageResultPanel(api, session, book, onWritten) {
     clearTimeout(workingTimer);
     [verdict.textContent, detail.textContent] = said = [sentence, details];
   };
+  /** Whether there is a flat page of this photo, or may be one of another. */
+  const isSavable = () => shown !== null || book.photos.some(({ file, state }) => file !== session.photo?.file && state?.traces !== null);
   /** Removes the flat page. @param {string} message shown in its place */
   const clear = (message) => {
     shown = null;
@@ -68,7 +70,7 @@ export function pageResultPanel(api, session, book, onWritten) {
     caption.textContent = '';
     about.replaceChildren();
     facts.hidden = proposal.hidden = true;
-    save.disabled = true;
+    save.disabled = !isSavable();
   };
   session.on('photo', ({ file }) => {
     before = null;
@@ -87,7 +89,7 @@ export function pageResultPanel(api, session, book, onWritten) {
     flattening.end();
     if (!working) [verdict.textContent, detail.textContent] = said;
     if (isMoving) return;
-    save.disabled = working || shown === null;
+    save.disabled = working || !isSavable();
     // Until the new flat page is there, nothing is said of the old one.
     if (!working) return;
     workingTimer = window.setTimeout(() => {
@@ -97,7 +99,7 @@ export function pageResultPanel(api, session, book, onWritten) {
     }, PROGRESS_DELAY_MS);
   });
   session.on('unfound', () => {
-    clear('');
+    clear(PAGE_WORDS.unfoundFlat);
     say(PAGE_WORDS.unfound, PAGE_WORDS.unplaced(session.unplacedCorners));
   });
   session.on('flat', ({ flat, moving }) => {
@@ -134,12 +136,12 @@ export function pageResultPanel(api, session, book, onWritten) {
 
   save.addEventListener('click', () => {
     const [wish, found] = [session.request(), shown];
-    if (!wish || !found) return;
+    if (!wish) return;
     const { outline: { pages }, quarters } = session;
-    const measured = found.unit === 'mm';
-    const [wide, high] = [found.size[0] / pages, found.size[1]];
+    const measured = found?.unit === 'mm';
+    const [wide, high] = found ? [found.size[0] / pages, found.size[1]] : [0, 0];
     const similar = quarters % 2 === 0 ? similarPaper(wide, high) : similarPaper(high, wide);
-    const paper = make('select', '', ...(measured ? [new Option(SAVE_WORDS.trueSize(sizeOf(found, quarters)), '')] : []),
+    const paper = make('select', '', ...(measured ? [new Option(SAVE_WORDS.trueSize(sizeOf(/** @type {DewarpedPage} */ (found), quarters)), '')] : []),
       ...Object.entries(SAVE_WORDS.papers).map(([name, words]) => new Option(words, name)));
     paper.value = measured ? '' : similar ?? 'a4';
     const text = Object.assign(make('input', ''), { type: 'checkbox', checked: wantsText });
@@ -156,22 +158,21 @@ export function pageResultPanel(api, session, book, onWritten) {
     let flat = null;
     /** @param {'png' | 'jpeg'} format */
     const writeImage = (format) => async (/** @type {PackageWorker} */ worker) => {
-      flat ??= await flattenWholePhoto(worker, wish, found);
+      flat ??= await flattenWholePhoto(worker, wish, /** @type {DewarpedPage} */ (found));
       return worker.writePhoto({ ...flat, ...turnPicture(flat, quarters) }, { format });
     };
     const offer = offerToSave(api, {
       title: 'Flat page',
       stem: `${wish.photo.name}-flat`,
       formats: [
-        { value: 'pdf', name: 'PDF', ...ofBook, words: several ? BOOK_WORDS.pdf(book.photos.length) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker, signal) => {
+        { value: 'pdf', name: 'PDF', ...ofBook, words: several ? BOOK_WORDS.pdf(book.photos.length, book.unfound(session).map(({ file: { name } }) => `“${name}”`)) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker, signal) => {
           if (several) return worker.writeBook(await flatBook(worker, signal, text.checked), { title });
-          flat ??= await flattenWholePhoto(worker, wish, found);
+          flat ??= await flattenWholePhoto(worker, wish, /** @type {DewarpedPage} */ (found));
           return worker.writeBook(await pictureFiles(worker, flat, pages, quarters, chosenPaper(), { ink: wish.options.ink, text: text.checked }), { title });
         } },
         ...(several ? [/** @type {Format} */ ({ value: 'zip', name: 'ZIP', ...ofBook, words: BOOK_WORDS.zip, type: 'application/zip', write: async (worker, signal) =>
-          zipOf(Object.fromEntries((await flatBook(worker, signal)).map(({ picture }, i) => [`${title}-${i + 1}.${wish.options.ink ? 'png' : 'jpg'}`, picture]))) })] : []),
-        { value: 'jpg', name: 'JPEG', words: FORMAT_WORDS.jpg, type: 'image/jpeg', write: writeImage('jpeg') },
-        { value: 'png', name: 'PNG', words: FORMAT_WORDS.png, type: 'image/png', write: writeImage('png') },
+          zipOf(Object.fromEntries((await flatBook(worker, signal)).map(({ picture, ending }, i) => [`${title}-${i + 1}.${ending}`, picture]))) })] : []),
+        ...(found ? [/** @type {Format} */ ({ value: 'jpg', name: 'JPEG', words: FORMAT_WORDS.jpg, type: 'image/jpeg', write: writeImage('jpeg') }), /** @type {Format} */ ({ value: 'png', name: 'PNG', words: FORMAT_WORDS.png, type: 'image/png', write: writeImage('png') })] : []),
       ],
       extra: [make('label', 'field for-pdf', SAVE_WORDS.paper(similar !== null && !measured ? SAVE_WORDS.papers[similar] : ''), paper), make('label', 'format for-pdf', text, SAVE_WORDS.searchable)],
     });

@@ -25,8 +25,8 @@ const EXAMPLE_FILM35 = 31.1;
 
 /**
  * @param {Api} api
- * @param {(photos: readonly BookPhoto[]) => void} onOpened called when photos were opened, added, moved or removed; none for an example
- * @param {(states: (PageState | null)[]) => void} onChanged called when outlines of the photos have changed
+ * @param {(photos: readonly BookPhoto[], shown: number) => void} onOpened called when photos were opened, shown, added, moved or removed; none for an example
+ * @param {(states: (PageState | null)[], shown: number) => void} onChanged called when outlines of the photos have changed
  */
 export function pagePanel(api, onOpened, onChanged) {
   /** Created with the first photo. @type {PageSession | null} */
@@ -45,14 +45,14 @@ export function pagePanel(api, onOpened, onChanged) {
     if (session) return session;
     const created = (session = new PageSession(api));
     pagePhotoPanel(created);
-    pageKnownPanel(created);
+    pageKnownPanel(created, book);
     pageResultPanel(api, created, book, list.renew);
     created.on('flat', ({ moving }) => {
       if (moving || !created.photo?.file) return;
       clearTimeout(storeTimer);
       storeTimer = window.setTimeout(() => {
         book.saveState(created);
-        onChanged(book.photos.map(({ state }) => state));
+        onChanged(book.photos.map(({ state }) => state), book.index);
       }, SETTLING_MS);
     });
     return created;
@@ -95,7 +95,7 @@ export function pagePanel(api, onOpened, onChanged) {
     examples.set('');
     book.index = at;
     list.renew();
-    onOpened(book.photos);
+    onOpened(book.photos, at);
     return true;
   };
   /** Opens a photo of the book that the user has chosen. @param {number} at */
@@ -112,7 +112,7 @@ export function pagePanel(api, onOpened, onChanged) {
         void showPhoto(index);
       },
     });
-  }, () => onOpened(book.photos));
+  }, () => onOpened(book.photos, book.index));
 
   /**
    * Opens photos, and adds them to those that are open.
@@ -170,7 +170,7 @@ export function pagePanel(api, onOpened, onChanged) {
         const { width, height, data } = await readPicture(new File([await (await fetch(address, { signal })).blob()], name));
         return preparePhoto(api, { width, height, data, film35: EXAMPLE_FILM35 }, name, signal);
       }, { pages });
-      if (isShown) onOpened([]);
+      if (isShown) onOpened([], 0);
     } catch (error) {
       showError('The example could not be made', error);
     }
@@ -182,11 +182,11 @@ export function pagePanel(api, onOpened, onChanged) {
     get hasPhoto() {
       return session !== null && session.photo !== null;
     },
-    /** Opens photos that this browser has kept, with their outlines. @param {readonly File[]} files @param {readonly (PageState | null)[]} states */
-    async openStored(files, states) {
+    /** Opens photos that this browser has kept, with their outlines. @param {readonly File[]} files @param {readonly (PageState | null)[]} states @param {number} [shown] index of the one that is shown */
+    async openStored(files, states, shown = 0) {
       book.setFiles(files, states);
       list.renew();
-      await showPhoto(0);
+      await showPhoto(shown);
     },
     /** Opens an example if no photo was opened yet. */
     begin: () => {

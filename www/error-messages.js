@@ -31,6 +31,9 @@ export function plainMessage(error) {
   if (row) return `vertex ${Number(row) + 1} of the mesh is at no place (“not a number” or infinite); repair the mesh, or take the vertex out`;
   return message
     .replace(/^this file: /, '')
+    .replace(/^text: save what is in it as one that is read/, 'it is text, in none of the formats that are read')
+    .replace(/^a file of unknown format: save what is in it as one that is read/, 'its format is not known')
+    .replace(/^archive: unpack it first/, 'it is a packed archive, to be unpacked first')
     .replace(/; heights are read from .*$/, `. ${OPENED_FILES}`)
     .replace(/^EXR: too new file feature flags$/, 'this EXR file is of a kind that is not read; save it as a plain one, with one layer')
     .replace(/`([^`]*)`/g, '“$1”').replace(/\.$/, '');

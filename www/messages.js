@@ -52,8 +52,8 @@ export const FILE_WORDS = {
   takenForHeights: 'Taken for heights.',
   openAsPage: 'Flatten it as a page',
   inColour: (/** @type {string} */ name) => `“${name}” is in colour and has no heights. With its depths, open both together.`,
-  /** @param {readonly { name: string }[]} files @param {boolean} areDepths */
-  leftOut: (files, areDepths) => `Left out: ${files.map(({ name }) => `“${name}”`).join(', ')}.${areDepths ? ' With depths go one photo and the camera’s file.' : ''}`,
+  /** @param {readonly { name: string }[]} files @param {'photo' | 'mesh' | 'depths'} beside what they came with */
+  leftOut: (files, beside) => `Left out: ${files.map(({ name }) => `“${name}”`).join(', ')}. ${{ photo: 'With photos of pages go only photos and PDFs.', mesh: 'With a model go only the textures and materials that it names.', depths: 'With depths go one photo and the camera’s file.' }[beside]}`,
   openInstead: (/** @type {readonly { name: string }[]} */ files) => (files.length === 1 ? `Open “${files[0].name}” instead` : 'Open these instead'),
 };
 

@@ -121,7 +121,7 @@ pageTest('every view fits on a phone, light and dark, with the pixels of the dev
   const sizes = await page.locator('canvas:visible').evaluateAll((canvases) =>
     canvases.map((canvas) => [/** @type {HTMLCanvasElement} */ (canvas).width, canvas.clientWidth]));
   for (const [pixels, width] of sizes) assert.equal(pixels, 2 * width);
-  if (!(await page.locator('#drawer').isVisible())) await page.locator('#certificate').click();
+  if (!(await page.locator('#drawer').isVisible())) await page.locator('#report-open').click();
   for (const colorScheme of /** @type {const} */ (['light', 'dark'])) {
     await page.emulateMedia({ colorScheme });
     for (const radio of await page.locator('label:not([hidden]) > input[name="view"]').all()) {

@@ -65,7 +65,7 @@ pageTest('axe finds nothing wrong with any view', async (page) => {
   await unfold(page);
   await soundEverywhere(page, 'the page');
   await page.setViewportSize({ width: 1280, height: 800 });
-  if (!(await page.locator('#drawer').isVisible())) await page.locator('#certificate').click();
+  if (!(await page.locator('#drawer').isVisible())) await page.locator('#report-open').click();
   for (const radio of await page.locator('label:not([hidden]) > input[name="view"]').all()) {
     await choose(radio);
     await page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });

@@ -156,6 +156,7 @@ sharedTest('a file of the wrong kind is named, and the part of the page that tak
   for (const [name, content, says] of /** @type {const} */ ([
     ['letter.docx', 'PK\x03\x04 word/', /“letter.docx” could not be read: document of an office program: save it as PDF.*\. This page opens/],
     ['notes.txt', 'Dear Anna', /“notes.txt” has no heights/], ['part.step', 'ISO-10303-21;', /save it as a mesh/], ['clip.mp4', '\0\0\0\x18ftypisom', /film: save one of its pictures/],
+    ['text.png', 'Dear Anna', /“text\.png” could not be read: it is text, in none of the formats that are read\. This page opens/], ['notes.docx', 'PK\x03\x04', /it is a packed archive, to be unpacked first\. This page opens/],
   ])) {
     await drop(page, name, Buffer.from(content));
     await alert.filter({ hasText: says }).waitFor();
@@ -190,7 +191,7 @@ sharedTest('the kind of a file chooses the part of the page, and what does not b
   await dropAll(page, { 'IMG_7.png': photo, 'letter.docx': Buffer.from('PK\x03\x04') });
   await page.locator('#page-caption', { hasText: 'IMG_7' }).waitFor();
   assert.ok(await page.locator('#page-side').isVisible());
-  await alert.filter({ hasText: /Taken for a photo of a page\. Left out: “letter\.docx”\./ }).waitFor();
+  await alert.filter({ hasText: /Taken for a photo of a page\. Left out: “letter\.docx”\. With photos of pages go only photos/ }).waitFor();
   assert.equal(await page.locator('#notice').getAttribute('data-kind'), 'note');
   await alert.getByRole('button', { name: 'Heights instead?' }).click();
   await alert.filter({ hasText: /has no heights\. With its depths, open both together/ }).waitFor();
@@ -202,7 +203,7 @@ sharedTest('the kind of a file chooses the part of the page, and what does not b
   await dropAll(page, { 'ramp.obj': ramp, 'other.obj': ramp, 'IMG_7.png': photo });
   await page.locator('#input-caption', { hasText: 'ramp' }).waitFor({ state: 'attached' });
   await settled(page);
-  assert.match(await alert.innerText(), /^Left out: “other\.obj”, “IMG_7\.png”\./);
+  assert.match(await alert.innerText(), /^Left out: “other\.obj”, “IMG_7\.png”\. With a model go only the textures and materials that it names\./);
   await alert.getByRole('button', { name: 'Open these instead' }).click();
   await page.locator('#input-caption', { hasText: 'other' }).waitFor({ state: 'attached' });
   await settled(page);

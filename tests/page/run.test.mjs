@@ -37,7 +37,7 @@ pageTest('the first visit shows a solved example with its certificate', async (p
   assert.ok(await page.locator('#copy-command').isDisabled() && await page.locator('#copy-code').isEnabled(), 'an example is made by code alone');
   const reason = page.locator('#report-uncopied');
   assert.match(await reason.innerText(), /no command .* not examples/, 'and that is said where the button is');
-  await page.locator('#certificate').click();
+  await page.locator('#report-open').click();
   const [above, below] = await Promise.all([page.locator('#copy-command'), reason].map((one) => one.boundingBox()));
   assert.ok(above && below && below.y > above.y && below.y < above.y + 3 * above.height, 'beneath it');
   const cited = await page.evaluate(() => {
@@ -46,7 +46,7 @@ pageTest('the first visit shows a solved example with its certificate', async (p
     return /** @type {Promise<string>} */ (copied);
   });
   assert.match(cited, /^@article\{.*doi = \{10\.1145\/3386569\.3392419\}\s\}\s$/s);
-  await page.locator('#certificate').click();
+  await page.locator('#report-open').click();
   // All that the page shows.
   assert.deepEqual([file.input.name, file.input.size, file.input.noise, file.settings.gap], ['roof', 400, 0.02, target]);
   assert.match(await page.locator('#verdict').innerText(), new RegExp(`^${file.pieces} smooth pieces meet in ${file.creases} creases`));
@@ -149,6 +149,8 @@ pageTest('cancel is heard at once and keeps the best surface, marked', async (pa
   assert.match(await page.locator('#certificate').innerText(), /^Cancelled after/);
   assert.equal(await page.locator('#result-mark').innerText(), 'cancelled');
   assert.match(await reported(page, 'Stopped by'), /cancelled/);
+  // Nothing was sharpened by then: the report has no other number of creases than the headline.
+  assert.equal(await page.locator('#report-table th', { hasText: /crease/i }).count(), 0);
   assert.ok(await page.locator('#end-file').isEnabled(), 'it can be saved');
 });
 

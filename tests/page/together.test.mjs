@@ -33,7 +33,7 @@ async function dotsOnSurface(page) {
 
 doorTest('depths, photo and camera in one drop are a surface with the photo on it', async (page) => {
   await runBy(page, () => dropAll(page, { 'IMG_1.png': photo, 'depth.npy': npy(256, depths(0)), 'camera.xml': calibration, 'notes.md': Buffer.from('a page') }));
-  await page.getByRole('alert').filter({ hasText: 'Left out: “notes.md”' }).waitFor();
+  await page.getByRole('alert').filter({ hasText: 'Left out: “notes.md”. With depths go one photo' }).waitFor();
   assert.equal(await page.locator('#mesh-name').innerText(), 'depth (depths)');
   assert.ok(await dotsOnSurface(page));
 }, { drawn: true });

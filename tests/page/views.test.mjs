@@ -14,7 +14,7 @@ import { parsePng } from './support/photos.mjs';
 async function view(page, name) {
   const radio = page.getByRole('radio', { name: new RegExp(`^${name}(,|$)`) });
   // What is for specialists is in the drawer.
-  if (!(await radio.isVisible())) await page.locator('#certificate').click();
+  if (!(await radio.isVisible())) await page.locator('#report-open').click();
   await choose(radio);
   await page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
   await painted(page);

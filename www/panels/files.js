@@ -59,7 +59,7 @@ export function filesPanel(session, mode, source, page) {
       return pages ? open(files.flatMap((file) => (file === pdf ? pages : file)), true) : undefined;
     }
     const { to, files: taken, left } = await routeFiles(files, arePages);
-    const leftOut = left.length > 0 ? FILE_WORDS.leftOut(left, to === 'heights' && kindByName(taken[0]) !== 'mesh') : '';
+    const leftOut = left.length > 0 ? FILE_WORDS.leftOut(left, to === 'photos' ? 'photo' : kindByName(taken[0]) === 'mesh' ? 'mesh' : 'depths') : '';
     if (to === 'photos') return openPhotos(taken, leftOut, arePages);
     if (mode.now !== 'heights' || earlier.openings === 0) earlier.mode = mode.now;
     mode.show('heights');

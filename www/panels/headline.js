@@ -12,15 +12,16 @@ const MAX_PIECE_COUNT_ATTEMPTS = 3;
 export function headlinePanel(session, analyses, stage, heights) {
   const main = element('verdict', HTMLElement);
   const page = element('page', HTMLElement);
-  const chip = element('certificate', HTMLButtonElement);
+  const chip = element('certificate', HTMLElement);
+  const report = element('report-open', HTMLButtonElement);
   const drawer = element('drawer', HTMLElement);
   let pieceCountTimer = 0;
   /** @param {string} sentence @param {string} details */
   const say = (sentence, details) => stage.say(heights, sentence, details);
 
-  chip.addEventListener('click', () => {
+  report.addEventListener('click', () => {
     drawer.hidden = !drawer.hidden;
-    chip.setAttribute('aria-expanded', String(!drawer.hidden));
+    report.setAttribute('aria-expanded', String(!drawer.hidden));
     if (!drawer.hidden) drawer.scrollIntoView({ block: 'nearest' });
   });
 
@@ -46,10 +47,10 @@ export function headlinePanel(session, analyses, stage, heights) {
     if (!session.result) say(HEADLINE_WORDS.solving, detailsOf(session));
   });
   session.on('result', (result) => {
-    const { report } = result.surface;
-    chip.hidden = false;
-    chip.textContent = certificateInWords(report);
-    chip.dataset.mark = report.stopReason === 'cancelled' || (report.gap === undefined && report.stopReason !== 'rounding') ? 'doubt' : 'sure';
+    const { gap, stopReason } = result.surface.report;
+    chip.hidden = report.hidden = false;
+    chip.textContent = certificateInWords(result.surface.report);
+    chip.dataset.mark = stopReason === 'cancelled' || (gap === undefined && stopReason !== 'rounding') ? 'doubt' : 'sure';
     say(HEADLINE_WORDS.solved, detailsOf(session));
     main.setAttribute('aria-busy', 'true');
     clearTimeout(pieceCountTimer);
@@ -57,7 +58,7 @@ export function headlinePanel(session, analyses, stage, heights) {
     pieceCountTimer = window.setTimeout(() => void showPieces(result), PROGRESS_DELAY_MS);
   });
   session.on('cleared', () => {
-    chip.hidden = true;
+    chip.hidden = report.hidden = true;
     main.setAttribute('aria-busy', 'false');
   });
   session.on('opening', (task) => {

@@ -69,7 +69,7 @@ export function galleryPanel(session, { adopt, choose, strip, enter, expectsInpu
     if (card.fromAbove) element('from-above', HTMLButtonElement).click();
     strip(card.opens === 'strip');
     element('drawer', HTMLElement).hidden = card.opens !== 'drawer';
-    element('certificate', HTMLButtonElement).setAttribute('aria-expanded', String(card.opens === 'drawer'));
+    element('report-open', HTMLButtonElement).setAttribute('aria-expanded', String(card.opens === 'drawer'));
     await session.run();
   };
 

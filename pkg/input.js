@@ -30,7 +30,7 @@ const LATTICE = /** @type {const} */ ([
 ]);
 
 /** What results have that are inputs in turn: of `read`, and of `fit`. */
-const RESULTS = { image: ['format', 'dataType', 'assumptions'], lattice: ['image', 'report', 'hidden', 'noNoise'] };
+const RESULTS = { image: ['format', 'dataType', 'assumptions'], lattice: ['image', 'georeference', 'report', 'hidden', 'noNoise'] };
 
 const SHAPES =
   'an image ({ width, height, data }) or heights on the lattice ({ rows, cols, spacing, heights }), ' +
@@ -98,7 +98,7 @@ export function asImage(input) {
 export function asPixels(input, format) {
   const { said, lattice } = read(input);
   if (!lattice) return imageHeights(said);
-  if (said.image !== undefined) return asImage(/** @type {HeightImage} */ (said.image));
+  if (said.image !== undefined) return { ...asImage(/** @type {HeightImage} */ (said.image)), georeference: mapOf(said) };
   if (format === 'npy') {
     const { rows: height, cols: width, heights: data, mask, noData } = latticeHeights(said);
     return { kind: 'image', width, height, data, mask, noData };
@@ -141,8 +141,12 @@ export function asHeights(input) {
 
 /** @param {Said} said @returns {Image} */
 function imageHeights(said) {
-  const georeference = said.georeference == null ? undefined : /** @type {import('./types.js').Georeference} */ (plainCopy('georeference', said.georeference));
-  return { ...pixels(said), data: numbers('data', said.data), georeference };
+  return { ...pixels(said), data: numbers('data', said.data), georeference: mapOf(said) };
+}
+
+/** Where pixels lie on a map, if that is known. @param {Said} said */
+function mapOf({ georeference }) {
+  return georeference == null ? undefined : /** @type {import('./types.js').Georeference} */ (plainCopy('georeference', georeference));
 }
 
 /** @param {Said} said @returns {Lattice} */
@@ -156,7 +160,7 @@ function imageInput(said) {
     throw new DevelopableError('INPUT', 'brokenEdges are for heights on the lattice: an image has none of its edges');
   }
   const data = said.data === undefined ? undefined : numbers('data', said.data);
-  return { ...pixels(said), data, ...known(said, data === undefined) };
+  return { ...pixels(said), data, georeference: mapOf(said), ...known(said, data === undefined) };
 }
 
 /** @param {Said} said @returns {Lattice} */
@@ -248,13 +252,13 @@ export function tuple(name, length, given) {
 }
 
 /**
- * What a surface has from its input: the unit, the axes of a view, the camera, colours, texture coordinates and texture.
+ * What a surface has from its input: the unit, the place on a map, the axes of a view, the camera, colours, texture coordinates and texture.
  * @param {Image | Lattice} field
- * @returns {Partial<Pick<import('./types.js').Surface, 'unit' | 'frame' | 'camera' | 'colors' | 'uvs' | 'texture'>>}
+ * @returns {Partial<Pick<import('./types.js').Surface, 'unit' | 'georeference' | 'frame' | 'camera' | 'colors' | 'uvs' | 'texture'>>}
  */
 export function carriedOf(field) {
   const unit = unitOf(field.unit);
-  if (field.kind === 'image') return { ...(unit && { unit }) };
+  if (field.kind === 'image') return { ...(unit && { unit }), georeference: field.georeference };
   const { frame, camera, colors, uvs, texture } = field;
   return {
     ...(unit && { unit }),

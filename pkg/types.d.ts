@@ -273,6 +273,8 @@ export interface FittedCylinder extends Omit<LatticeSurface, 'report'> {
 export interface Surface extends Omit<FittedHeights, 'report'> {
   /** Unit of all lengths, if it was known for the input. */
   unit?: Unit;
+  /** Where the pixels of the input lie on a map, passed through; `writeImage` writes it to a TIFF. */
+  georeference?: Georeference;
   /** Axes of the input's coordinates in space, passed through from the input. */
   frame?: Frame;
   /** Camera of the input, passed through. */

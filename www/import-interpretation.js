@@ -33,7 +33,7 @@ const MIN_MEASURED_SHARE = 0.2;
  * @returns {InterpretedHeights}
  */
 export function interpretFile(read, noData) {
-  const { width, height, data, pixelSize, heightScale, dataType, unit, depths, depthUnit } = read;
+  const { width, height, data, pixelSize, heightScale, dataType, unit, depths, depthUnit, georeference } = read;
   if (!data.some(Number.isFinite)) throw new Error('it has no heights, every pixel is “no data” (NaN)');
   if (data.some((value) => Math.abs(value) === Infinity)) throw new Error('it has infinite heights; mark them as NaN, “no data”');
   if (width < 3 || height < 3) throw new Error(`it is ${width} × ${height} pixels; a surface needs at least 3 × 3`);
@@ -42,7 +42,7 @@ export function interpretFile(read, noData) {
   const coarsening = coarseningFor(read);
   const guesses = [areFew ? GUESS_WORDS.few : '', coarsening > 1 ? GUESS_WORDS.coarse(coarsening) : ''].filter(Boolean).join(' ');
   const stored = { width, height, data, range: sidesOf(data, 1)[0], pixelSize, heightScale, levels: /^u/.test(dataType), guesses, coarsening, noData };
-  return { width, height, data, pixelSize, heightScale, unit: unit ?? undefined, depths: depths === 'none' ? undefined : depths, depthUnit, stored };
+  return { width, height, data, pixelSize, heightScale, unit: unit ?? undefined, depths: depths === 'none' ? undefined : depths, depthUnit, georeference, stored };
 }
 
 /** The lattice spacing in pixels that keeps the solve of a large image short. @param {{ width: number, height: number }} size */

@@ -24,6 +24,7 @@ import { WORKER_IDLE_MS } from './worker-task.js';
  * @property {number} pixelSize
  * @property {number} heightScale
  * @property {string} [unit] unit of lengths, if known
+ * @property {import('../pkg/types.js').Georeference} [georeference] of the pixels
  * @property {Heightfield & Partial<SampledMesh> & { heights: Float64Array }} [lattice] solved instead of the pixels, which then only display it
  * @property {{ file: File, names: readonly string[], name: string }} [array] the array that is open, for a file with several
  * @property {{ mesh: Mesh, options: SampleMeshOptions }} [sampling] for heights that were sampled from a mesh
@@ -422,8 +423,8 @@ export function spacingOf({ pixelSize, lattice }, coarsening) {
 }
 
 /** Converts an input to a height image or heightfield of the package. @param {Input} input */
-export function heightsOf({ width, height, data, pixelSize, heightScale, lattice }) {
-  return lattice ?? { width, height, pixelSize, heightScale, data };
+export function heightsOf({ width, height, data, pixelSize, heightScale, georeference, lattice }) {
+  return lattice ?? { width, height, pixelSize, heightScale, georeference, data };
 }
 
 /**

@@ -26,12 +26,11 @@ export async function fit(task, signal) {
   const texture = task.texture === undefined ? undefined : await readBytes(task.texture);
   const { photo, camera } = texture === undefined ? {} : await seenBy(task, texture);
   const input = await readForFit({ ...task, photo }, signal);
-  const map = 'georeference' in input ? input.georeference : undefined;
   const bare = await solve(task, input, { signal, transfer: true });
   const surface = texture === undefined
     ? bare
     : await withFileName(String(task.texture), () => developable.paint(bare, texture, camera && { camera }));
-  const files = [{ path: task.output, bytes: await during(`making ${task.output}`, () => encode(task, surface, map)) }];
+  const files = [{ path: task.output, bytes: await during(`making ${task.output}`, () => encode(task, surface)) }];
   if (task.mtl !== undefined) {
     files.push({ path: task.mtl, bytes: await developable.writeMtl(from(task.mtl, String(task.texture))) });
   }
@@ -116,14 +115,12 @@ export async function solve(task, input, control) {
 /**
  * @param {Task} task
  * @param {Surface} surface
- * @param {import('../types.js').Georeference} [map] where the input's pixels lie
  */
-function encode({ extension, output, mtl }, surface, map) {
+function encode({ extension, output, mtl }, surface) {
   if (extension in MESH_FILES) return writeMesh(extension, surface, mtl === undefined ? undefined : { materials: from(output, mtl) });
   const { rows, cols, spacing, heights: data } = surface;
   // On the lattice, the rows of the file are those of the lattice, as in the input.
-  const image = surface.image ?? { width: cols, height: rows, data, pixelSize: spacing };
-  return developable.writeImage({ ...image, georeference: map }, { format: IMAGE_FORMATS[extension] });
+  return developable.writeImage(surface.image ? surface : { width: cols, height: rows, data, pixelSize: spacing }, { format: IMAGE_FORMATS[extension] });
 }
 
 /**

@@ -169,4 +169,9 @@ test('a size of pixels that is given is the one that is solved with and written'
   for (const { words } of assumptions) assert.ok(solved.stderr.includes(`assumed: ${words} (--`) && info.stdout.includes(words), words);
   const own = direct.read(await readFile(join(folder, 'own.tif')));
   assert.deepEqual([own.width, own.pixelSize, own.georeference?.transformation], [20, 0.6, [0.6, 0, 4e5, 0, -0.6, 5.4e6]]);
+  await direct.init();
+  // The surface itself says where it lies, so that whoever writes it need not know its input.
+  const surface = direct.fit(direct.read(await readFile(join(folder, 'map.tif'))));
+  assert.deepEqual(direct.read(direct.writeImage(surface, { format: 'tiff' })).georeference, own.georeference);
+  assert.deepEqual(own.georeference?.keys, georeference.keys);
 });

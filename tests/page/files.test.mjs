@@ -1,5 +1,6 @@
 /** Files in, by drop and by dialog, sound and broken; files out. */
 import assert from 'node:assert/strict';
+import { read, writeImage } from '../../pkg/index.js';
 import { grid, npy, obj, parseNpy, png16 } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
 import { choose, doorTest, drop, dropAll, enterPages, open, reported, runBy, save, settled, sharedDoorTest, sharedTest } from './support/page.mjs';
@@ -50,6 +51,13 @@ sharedDoorTest('a dropped 16-bit PNG takes the scale that is given', async (page
   const expected = plane.map((value) => value * heightScale);
   const { values } = parseNpy((await save(page, 'NPY')).bytes);
   assertClose(values, expected, 1e-3 * (Math.max(...expected) - Math.min(...expected)));
+});
+
+sharedDoorTest('a GeoTIFF lies where it lay on the map', async (page) => {
+  const georeference = { transformation: /** @type {[number, number, number, number, number, number]} */ ([2, 0, 4e5, 0, -2, 5.4e6]), keys: [1, 1, 0, 1, 3072, 0, 1, 32633], doubles: [], text: '' };
+  await open(page, 'map.tif', Buffer.from(await writeImage({ width: WIDTH, height: HEIGHT, data: plane, georeference }, { format: 'tiff' })));
+  await run(page);
+  assert.deepEqual((await read((await save(page, 'TIFF')).bytes)).georeference, georeference);
 });
 
 sharedDoorTest('holes stay holes', async (page) => {

@@ -16,7 +16,7 @@ export async function offerFile(api, result) {
     stem: fileStem(result), surface, positions: latticePositions(surface), unit: result.input.unit, onBase: true,
     mesh: async (worker) => worker.readMesh(new File([/** @type {Uint8Array<ArrayBuffer>} */ (await worker.writePly({ ...surface, frame: undefined, colors: undefined, uvs: undefined }))], 'surface.ply')),
     further: imageFiles.map(([format, { type, about }]) => ({
-      value: format, name: format.toUpperCase(), words: `heights as ${about}`, type, write: (worker) => worker.writeImage(image, { format }),
+      value: format, name: format.toUpperCase(), words: `heights as ${about}`, type, write: (worker) => worker.writeImage({ ...image, georeference: surface.georeference }, { format }),
     })),
   });
 }

@@ -30,7 +30,7 @@ const LATTICE = /** @type {const} */ ([
 ]);
 
 /** What results have that are inputs in turn: of `read`, and of `fit`. */
-const RESULTS = { image: ['format', 'dataType', 'assumptions'], lattice: ['image', 'georeference', 'report', 'hidden', 'noNoise'] };
+const RESULTS = { image: ['format', 'dataType', 'assumptions'], lattice: ['image', 'georeference', 'pixelDistance', 'report', 'hidden', 'noNoise'] };
 
 const SHAPES =
   'an image ({ width, height, data }) or heights on the lattice ({ rows, cols, spacing, heights }), ' +

@@ -507,6 +507,11 @@ export interface FittedHeights {
   heights: Float64Array<ArrayBuffer>;
   /** The surface at the pixels of the input, if that is an image. */
   image?: SurfaceImage;
+  /**
+   * Root mean square distance of `image` from the heights of the input, over the pixels that have both, in the
+   * surface's unit of length: what neither the lattice nor the fit has kept of them.
+   */
+  pixelDistance?: number;
   /** Report on the fit: what was solved, how well, and at what cost. */
   report: SolveReport;
 }
@@ -603,7 +608,7 @@ export type Format = 'png' | 'npy' | 'tiff' | 'exr' | 'pfm' | 'npz' | 'jpeg' | '
 
 /**
  * Where the pixels of an image lie on a map. It is read from a GeoTIFF and written to one unchanged, but for the rows
- * or columns that were reversed or resampled.
+ * that were reversed.
  */
 export interface Georeference {
   /**
@@ -618,6 +623,11 @@ export interface Georeference {
   doubles: number[];
   /** Text of the tag `GeoAsciiParams`, to which keys refer. */
   text: string;
+  /**
+   * Columns and rows of the file's own pixels, which the transformation is about, if the image was made of square ones;
+   * files of its surface are written on them.
+   */
+  size?: [number, number];
 }
 
 /** Histogram of magnitudes of curvatures in bins of half a decade, which are the same for all surfaces. */
@@ -668,8 +678,9 @@ export interface LambdaChoice {
    */
   correlationLength: number;
   /**
-   * Whether the noise of heights that no camera has measured is correlated and larger than 3.5 % of the height range,
-   * as the shape of a terrain looks too, so that noise and shape cannot be told apart: σ and λ are uncertain.
+   * Whether the noise of heights that no camera has measured is correlated and larger than 15 % of their standard
+   * deviation, as the shape of a terrain looks too, so that noise and shape cannot be told apart: σ and λ are
+   * uncertain.
    */
   ambiguous: boolean;
   /**

@@ -3,7 +3,7 @@ import { count, countOf, number, percent, percentAtMost, seconds, shortLambda } 
 import { OPENED_FILES, plainMessage } from './error-messages.js';
 
 /** @typedef {import('../pkg/types.js').Assumption} Assumption */
-/** @import {Report, StopReason, Verdict} from '../pkg/types.js' */
+/** @import {Report, StopReason, Surface, Verdict} from '../pkg/types.js' */
 
 /** Why a solve stopped. @type {Record<StopReason, string>} */
 export const STOP_REASONS = {
@@ -288,15 +288,15 @@ export function lambdaHint(lambda) {
 /** Hint for automatic λ, before it is chosen. */
 export const AUTO_LAMBDA_HINT = 'The page chooses λ from the noise of the input. This takes a few more solves.';
 
-/** How λ was chosen automatically; empty if it was given. @param {Report} report */
-export function lambdaChoiceInWords({ lambda, lambdaChoice }) {
+/** How λ was chosen automatically; empty if it was given. @param {Pick<Surface, 'report' | 'pixelDistance'>} surface */
+export function lambdaChoiceInWords({ report: { lambda, lambdaChoice }, pixelDistance }) {
   if (!lambdaChoice) return '';
   const { reason, sigma, step, solves, correlationLength, ambiguous, residualExceedsNoise, residualRatio, tolerance, offsetRows, offsetColumns } = lambdaChoice;
   const lines = [offsetRows && 'rows', offsetColumns && 'columns'].filter(Boolean).join(' and ');
   const levelled = lines && ` Offsets of ${lines} were taken out.`;
   const length = correlationLength > 0 ? `, alike over distances of ${number(correlationLength)}` : '';
   const noise = step === undefined ? `Noise: ${number(sigma ?? 0)}${length}` : `Steps: ${number(step)}`;
-  const within = tolerance === undefined ? '' : ` The surface keeps within ${number(tolerance)} of the heights (root mean square).`;
+  const within = tolerance === undefined ? '' : ` The surface keeps to the heights, but for ${number(pixelDistance ?? tolerance)} (root mean square).`;
   const unsure = ambiguous ? ` Shape and noise cannot be told apart.${within} Compare five values.` : '';
   const doubt = residualExceedsNoise
     ? ` The surface is at least ${number(residualRatio ?? 0)} times as far from the heights as their noise explains: a larger λ keeps more of the shape.`

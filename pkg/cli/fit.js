@@ -43,7 +43,7 @@ export async function fit(task, signal) {
   if (tolerance !== undefined && reason !== 'tolerance') {
     toStderr(
       `developable: ${reason === 'noNoise' ? 'this input has no noise' : 'shape and noise cannot be told apart in this input'}, so the surface keeps `
-      + `within ${Number(tolerance.toPrecision(2))} of the sampled heights (root mean square); --tolerance or --lambda asks for a simpler one\n`,
+      + `to its heights, but for ${Number((surface.pixelDistance ?? tolerance).toPrecision(2))} (root mean square); --tolerance or --lambda asks for a simpler one\n`,
     );
   }
   if (residualExceedsNoise) {

@@ -191,14 +191,14 @@ export const solver = {
     default: 'default',
     flag: { section: 'stop', value: 'S', help: 'default, or paper: the published schedule, which stops on residuals' },
   },
-  /** Maximum number of ADMM iterations. */
+  /** Maximum number of ADMM iterations. Default 20000, and 200 of these on the finest lattice unless a smaller gap than the default is asked for. */
   maxIterations: {
     kind: whole,
     default: 20000,
     flag: {
       section: 'stop',
       value: 'N',
-      help: 'most iterations (default 20000); with --surface of each linearised problem (default 1000)',
+      help: 'most iterations (default 20000, and 200 on the finest lattice with the default --gap); with --surface of each linearised problem (default 1000)',
     },
   },
   ...resampling,

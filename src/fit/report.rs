@@ -165,8 +165,8 @@ pub struct LambdaChoice {
     /// Correlation length of the noise, in the input's units: the standard deviation of the Gaussian blur that turns
     /// white noise into noise like it. 0 for noise that is independent from vertex to vertex.
     pub correlation_length: f64,
-    /// Whether the noise of heights that no camera has measured is correlated and larger than 3.5 % of the height range, as the
-    /// shape of a terrain looks too, so that noise and shape cannot be told apart: σ and λ are uncertain.
+    /// Whether the noise of heights that no camera has measured is correlated and larger than 15 % of their standard deviation,
+    /// as the shape of a terrain looks too, so that noise and shape cannot be told apart: σ and λ are uncertain.
     pub ambiguous: bool,
     /// Root mean square distance from the heights that the surface keeps within, in the input's units: the one that was
     /// asked for, or a default where heights have no noise or [`LambdaChoice::ambiguous`] noise; `None` otherwise.

@@ -233,6 +233,17 @@ impl HeightImage {
         &self.values
     }
 
+    /// Root mean square difference to the heights of another image of the same size, over the pixels that have both.
+    pub fn distance(&self, other: &HeightImage) -> f64 {
+        let differences = self.values.iter().zip(&other.values).map(|(a, b)| a - b);
+        let (squares, count) = differences
+            .filter(|difference| difference.is_finite())
+            .fold((0.0, 0.0), |(squares, count), d| {
+                (squares + d * d, count + 1.0)
+            });
+        f64::sqrt(squares / f64::max(count, 1.0))
+    }
+
     /// Returns the heights of the pixels, row by row from the top; NaN where there is none.
     pub fn into_values(self) -> Vec<f64> {
         self.values

@@ -58,7 +58,7 @@ test('units come with the pixel size', async () => {
   assert.ok(Math.abs(dpi.pixelSize - 0.1) < 1e-12);
   const uneven = await data('unequal.tif');
   const square = await developable.read(uneven);
-  assert.ok(Math.abs(square.pixelSize - 0.254) < 1e-12);
+  assert.ok(Math.abs(square.pixelSize - 0.127) < 1e-12);
   assert.deepEqual(square.assumptions.map(({ code, option }) => [code, option]), [['heightUnit', 'heightScale'], ['squarePixels', 'pixelSize']]);
 });
 
@@ -168,10 +168,13 @@ test('a size of pixels that is given is the one that is solved with and written'
   assert.deepEqual(assumptions.map((/** @type {{ code: string }} */ { code }) => code), ['squarePixels']);
   for (const { words } of assumptions) assert.ok(solved.stderr.includes(`assumed: ${words} (--`) && info.stdout.includes(words), words);
   const own = direct.read(await readFile(join(folder, 'own.tif')));
-  assert.deepEqual([own.width, own.pixelSize, own.georeference?.transformation], [20, 0.6, [0.6, 0, 4e5, 0, -0.6, 5.4e6]]);
+  // Solved on squares, and written on the pixels of the file, all of them and where they lie.
+  assert.deepEqual([own.width, own.height, own.pixelSize, own.georeference?.transformation, own.georeference?.size], [24, 24, 0.5, georeference.transformation, [24, 20]]);
   await direct.init();
   // The surface itself says where it lies, so that whoever writes it need not know its input.
   const surface = direct.fit(direct.read(await readFile(join(folder, 'map.tif'))));
   assert.deepEqual(direct.read(direct.writeImage(surface, { format: 'tiff' })).georeference, own.georeference);
+  const array = direct.read(direct.writeImage(surface, { format: 'npy' }));
+  assert.deepEqual([array.width, array.height], [24, 20]);
   assert.deepEqual(own.georeference?.keys, georeference.keys);
 });

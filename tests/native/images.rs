@@ -121,10 +121,10 @@ fn tiffs_say_how_large_a_pixel_is_and_what_is_no_data() {
     close("geo-metres.tif", 0.5, Some(Unit::Metre));
     close("geo.tif", 0.5, None);
     close("no-data.tif", 1.0, None);
-    // 0.254 wide and 0.127 high, and 0.5 and 0.25 on a map: rows are averaged in pairs.
-    for (name, side) in [("unequal.tif", 0.254), ("geo-unequal.tif", 0.5)] {
+    // 0.254 wide and 0.127 high, and 0.5 and 0.25 on a map: there are two pixels for each.
+    for (name, side) in [("unequal.tif", 0.127), ("geo-unequal.tif", 0.25)] {
         let found = read(name);
-        assert_eq!((found.width, found.height), (4, 1), "{name}");
+        assert_eq!((found.width, found.height), (8, 3), "{name}");
         assert!((found.pixel_size - side).abs() < 1e-12, "{name}");
         assert_eq!(
             found.assumptions.last().unwrap().code,

@@ -122,15 +122,15 @@ fn degrees_are_told_by_the_needle_that_they_would_make_as_lengths() {
     };
     let points: String = (0..9).map(point).collect();
     for grid in [esri(place, heights), decode(&points).unwrap()] {
-        // Squares as high as a minute of latitude.
+        // Squares as wide as a minute of longitude.
         assert!(
-            (grid.pixel_size / step - 111_160.0).abs() < 20.0,
+            (grid.pixel_size / step - 76_760.0).abs() < 20.0,
             "{}",
             grid.pixel_size
         );
         assert_eq!(
             (grid.width, grid.height, grid.unit),
-            (2, 3, Some(Unit::Metre))
+            (3, 4, Some(Unit::Metre))
         );
         let codes: Vec<&str> = grid.assumptions.iter().map(|one| one.code).collect();
         assert_eq!(codes, ["mapUnit", "degrees", "squarePixels"]);

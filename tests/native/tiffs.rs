@@ -156,7 +156,7 @@ fn pixels_have_the_size_that_a_microscope_says() {
         image.y_resolution(Rational { n: 36, d: 1 });
     });
     let read = decode(&bytes, None).unwrap();
-    assert_eq!((read.width, read.height, read.unit), (4, 3, None));
+    assert_eq!((read.width, read.height, read.unit), (8, 6, None));
     assert!(has(&read, "squarePixels") && has(&read, "pixelSize"));
 }
 

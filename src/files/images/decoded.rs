@@ -165,16 +165,15 @@ impl StoredImage {
         let [x, y] = self.sides.unwrap_or(of_unknown_size);
         let square = square_pixels(self.values, self.size, [x, y])?;
         if differ([x, y]) {
-            let how = if square.size == self.size {
-                "taken for"
-            } else {
-                "resampled to"
+            let how = match square.size == self.size {
+                true => "taken for",
+                false => "resampled to",
             };
             let words = format!("pixels of {x} × {y} are {how} squares of {}", square.side);
             assumptions.push(Assumption::new("squarePixels", words, "pixelSize"));
-        }
-        if let Some(map) = &mut self.georeference {
-            map.stretch(square.stretch);
+            if let Some(map) = &mut self.georeference {
+                map.size = Some([self.size.0, self.size.1]);
+            }
         }
         let ((width, height), mut pixel_size) = (square.size, square.side);
         let mut values = square.values;

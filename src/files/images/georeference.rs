@@ -1,5 +1,9 @@
 //! Georeferences of GeoTIFF files: where the pixels of an image lie on a map.
 
+use super::square_pixels::resampled;
+use crate::error::Result;
+use crate::heights::heightfield::HeightImage;
+
 /// Number of the key `GTRasterTypeGeoKey` of the GeoTIFF format, which tells what of a pixel has the coordinates.
 const RASTER_TYPE_KEY: u16 = 1025;
 
@@ -7,7 +11,7 @@ const RASTER_TYPE_KEY: u16 = 1025;
 const RASTER_TYPE_POINT: u16 = 2;
 
 /// Where the pixels of an image lie on a map. It is read from a GeoTIFF and written to one unchanged, but for the rows
-/// or columns that were reversed or resampled.
+/// that were reversed.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -21,6 +25,13 @@ pub struct Georeference {
     pub doubles: Vec<f64>,
     /// Text of the tag `GeoAsciiParams`, to which keys refer.
     pub text: String,
+    /// Columns and rows of the file's own pixels, which the transformation is about, if the image was made of square ones; files of
+    /// its surface are written on them.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, skip_serializing_if = "Option::is_none")
+    )]
+    pub size: Option<[usize; 2]>,
 }
 
 impl Georeference {
@@ -42,20 +53,30 @@ impl Georeference {
         self.key(RASTER_TYPE_KEY) == Some(RASTER_TYPE_POINT)
     }
 
-    /// Makes pixels wider and higher by these factors.
-    pub(super) fn stretch(&mut self, [across, down]: [f64; 2]) {
-        if self.is_point() {
-            let [a, b, c, d, e, f] = self.transformation;
-            let [i, j] = [0.5 * (across - 1.0), 0.5 * (down - 1.0)];
-            self.transformation = [a, b, c + a * i + b * j, d, e, f + d * i + e * j];
-        }
-        self.scale_pixels([across, down]);
-    }
-
     /// Makes pixels wider and higher by these factors, and leaves the first one where it is.
     pub(super) fn scale_pixels(&mut self, [across, down]: [f64; 2]) {
         let [a, b, _, d, e, _] = &mut self.transformation;
         (*a, *d) = (*a * across, *d * across);
         (*b, *e) = (*b * down, *e * down);
     }
+}
+
+/// Interpolates an image on square pixels at the [own pixels](Georeference::size) of the file that its map comes from; `None` where
+/// these are the same.
+///
+/// # Errors
+/// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+pub(super) fn on_own_pixels(
+    map: Option<&Georeference>,
+    image: &HeightImage,
+) -> Result<Option<HeightImage>> {
+    let size = (image.width(), image.height());
+    let own = map
+        .and_then(|map| map.size)
+        .map(|[width, height]| (width, height));
+    let Some(own) = own.filter(|own| *own != size) else {
+        return Ok(None);
+    };
+    let values = resampled(image.values(), size, own)?;
+    Ok(Some(HeightImage::new(own.0, own.1, values)?))
 }

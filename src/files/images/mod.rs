@@ -33,6 +33,7 @@ mod square_pixels;
 use crate::error::Result;
 use crate::files::failure::{in_format, not_read, unsupported};
 use crate::heights::heightfield::HeightImage;
+use georeference::on_own_pixels;
 
 pub use super::image_format::{FORMAT_NAMES, Format};
 pub use super::kind::{announced, format_name};
@@ -135,7 +136,7 @@ pub fn decode_basic(
 
 /// Writes heights to a file of the given format; NaN is no data. [`decode`] gives the pixel size back, but from NPY.
 ///
-/// - **NPY**: 64-bit floats, exact.
+/// - **NPY**: 64-bit floats, exact, at the pixels of the map that was read, if there is one.
 /// - **PNG**: 16-bit grey. Text chunks record scale, offset, pixel size and the level of no data, so that [`decode`] gives
 ///   back every height to 1/131068 of their range.
 ///
@@ -147,7 +148,6 @@ pub fn decode_basic(
 /// # Errors
 /// [`Error::Unsupported`](crate::Error::Unsupported) for other formats, [`Error::NotFinite`](crate::Error::NotFinite) for heights
 /// that 32-bit floats cannot hold, [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-#[cfg_attr(not(feature = "images"), expect(unused_variables))]
 pub fn write_image(
     image: &HeightImage,
     format: Format,
@@ -156,7 +156,7 @@ pub fn write_image(
     match format {
         #[cfg(feature = "images")]
         other if !other.is_basic() => extended::write(image, other, map),
-        basic => write_basic(image, basic),
+        basic => write_basic(image, basic, map),
     }
 }
 
@@ -164,10 +164,18 @@ pub fn write_image(
 ///
 /// # Errors
 /// As [`write_image`].
-pub fn write_basic(image: &HeightImage, format: Format) -> Result<Vec<u8>> {
+pub fn write_basic(
+    image: &HeightImage,
+    format: Format,
+    map: Option<&Georeference>,
+) -> Result<Vec<u8>> {
     match format {
         Format::Png => png::write_png(image),
-        Format::Npy => write_npy(image.height(), image.width(), image.values()),
+        Format::Npy => {
+            let own = on_own_pixels(map, image)?;
+            let image = own.as_ref().unwrap_or(image);
+            write_npy(image.height(), image.width(), image.values())
+        }
         _ => Err(unsupported(format, "it is not written here")),
     }
 }

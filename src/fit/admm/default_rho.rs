@@ -38,6 +38,10 @@ const DUAL_COST_SHARE_HIGH: f64 = 0.7;
 /// Constants of the schedule).
 const RHO_REFINEMENT_FACTOR: f64 = 0.5;
 
+/// Minimum of ρ at which residual balancing lowers it, in spacings, the natural unit. Where the surface jumps, its large Hessians
+/// make the relative primal residual small, and ρ would fall until iterates hardly move (`benches/choices.md`, Jumps).
+const MIN_RHO_SPACINGS: f64 = 0.1;
+
 /// Maximum screening length `(ρ/2λ)^¼` of the z-step (distance over which it smooths), in lattice spacings: its fourth
 /// power is the condition number. A longer one moves the surface faster and its dual bound more slowly
 /// (`benches/choices.md`, Constants of the schedule).
@@ -99,7 +103,8 @@ pub(super) fn next_rho<O: SolvableOperator>(
         if !admm.parameters.is_mesh {
             let dual = RESIDUAL_BALANCE_RATIO * certificate.dual_residual / certificate.dual_size;
             let grows = primal > RESIDUAL_RATIO * dual || is_cheap;
-            (grows, dual > RESIDUAL_RATIO * primal && !is_cheap)
+            let may_fall = rho > MIN_RHO_SPACINGS * problem.operator.spacing() && !is_cheap;
+            (grows, may_fall && dual > RESIDUAL_RATIO * primal)
         } else {
             // Balanced residuals take more iterations on meshes (`benches/whole.md`).
             (is_cheap, certificate.dual_cost > DUAL_COST_SHARE_HIGH * gap)

@@ -1,7 +1,7 @@
 //! Parameters of ADMM on one level of the multigrid hierarchy.
 
 use super::certificate::Certificate;
-use crate::fit::options::{Energy, Options, Schedule};
+use crate::fit::options::{DEFAULT_GAP, Energy, Options, Schedule};
 
 /// Parameters of ADMM on one multigrid level: the schedule that it follows, and when it stops.
 #[derive(Debug, Clone, Copy)]
@@ -10,6 +10,8 @@ pub(crate) struct AdmmParameters {
     /// Relative duality gap at which ADMM stops.
     pub(super) gap: f64,
     pub(super) max_iterations: usize,
+    /// Maximum number of ADMM iterations on the finest level.
+    max_finest_iterations: usize,
     /// Whether this level's lattice is not the finest one.
     pub(super) is_coarse: bool,
     /// Whether the problem is that of a mesh, not of a lattice.
@@ -17,6 +19,13 @@ pub(crate) struct AdmmParameters {
     /// Whether the penalty weights are computed anew from the current surface's normals ([`Energy::SecondForm`]).
     pub(super) follows_normals: bool,
 }
+
+/// Default of the maximum number of ADMM iterations on all levels.
+const DEFAULT_MAX_ITERATIONS: usize = 20_000;
+
+/// Maximum number of ADMM iterations on the finest level where neither it nor a smaller gap than the default is asked for
+/// (`benches/choices.md`, Jumps).
+const MAX_FINEST_ITERATIONS: usize = 200;
 
 /// Minimum number of interior vertices of a coarse multigrid level: a smaller lattice saves nothing
 /// (`benches/choices.md`, Schedule by ablation).
@@ -44,7 +53,13 @@ impl AdmmParameters {
         AdmmParameters {
             schedule: options.schedule,
             gap: options.gap_or_default(),
-            max_iterations: options.max_iterations,
+            max_iterations: options.max_iterations.unwrap_or(DEFAULT_MAX_ITERATIONS),
+            max_finest_iterations: match (options.max_iterations, options.schedule) {
+                (None, Schedule::Default) if options.gap_or_default() >= DEFAULT_GAP => {
+                    MAX_FINEST_ITERATIONS
+                }
+                _ => usize::MAX,
+            },
             is_coarse: false,
             is_mesh: false,
             follows_normals: options.energy_or_default() == Energy::SecondForm,
@@ -71,7 +86,7 @@ impl AdmmParameters {
                 }),
                 left.min(MAX_COARSE_ITERATIONS),
             ),
-            false => (self.gap, left),
+            false => (self.gap, left.min(self.max_finest_iterations)),
         };
         AdmmParameters {
             gap,

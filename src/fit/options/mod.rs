@@ -43,7 +43,7 @@ pub struct Options {
     pub(crate) tolerance: Option<Tolerance>,
     pub(crate) schedule: Schedule,
     pub(crate) gap: Option<f64>,
-    pub(crate) max_iterations: usize,
+    pub(crate) max_iterations: Option<usize>,
     #[cfg_attr(feature = "serde", serde(rename = "normalize"))]
     pub(crate) normalization: Normalization,
     pub(crate) energy: Option<Energy>,
@@ -69,7 +69,7 @@ impl Default for Options {
             tolerance: None,
             schedule: Schedule::Default,
             gap: None,
-            max_iterations: 20_000,
+            max_iterations: None,
             normalization: Normalization::UnitSquare,
             energy: None,
             reweighting: 0,
@@ -125,9 +125,10 @@ impl Options {
         self
     }
 
-    /// Sets the maximum number of ADMM iterations, at least 1; default 20 000.
+    /// Sets the maximum number of ADMM iterations, at least 1; default 20 000, and 200 of these on the finest lattice for a gap that
+    /// is not below the default, so that no input takes far longer than others of its size.
     pub fn max_iterations(mut self, max_iterations: usize) -> Self {
-        self.max_iterations = max_iterations;
+        self.max_iterations = Some(max_iterations);
         self
     }
 

@@ -90,7 +90,7 @@ impl Options {
                 "must be at most 20",
             )?;
         }
-        let iterations = count(Some(self.max_iterations));
+        let iterations = count(self.max_iterations);
         check(
             "max_iterations",
             iterations,

@@ -1,6 +1,6 @@
 //! λ and the penalty that follow from the noise of the heights, without a solve.
 
-use super::noise::{MIN_NOISE_SHARE, Noise, height_range};
+use super::noise::{MIN_NOISE_SHARE, Noise, height_range, height_spread};
 use super::refinement::Aim;
 use crate::error::Result;
 use crate::fit::input::Input;
@@ -14,10 +14,10 @@ const LAMBDA_NOISE: f64 = 8.0;
 /// λ of an input that is free of noise.
 const WITHOUT_NOISE: Lambda = Lambda::Big;
 
-/// Maximum standard deviation of smooth noise of heights that no camera has measured, as a share of the height range. What looks
-/// like larger noise may be the shape of a terrain, which is alike at every scale
-/// (`benches/scenes.md`, One constant at a time).
-const MAX_SMOOTH_NOISE_SHARE: f64 = 0.035;
+/// Maximum standard deviation of smooth noise of heights that no camera has measured, as a share of their
+/// [spread](InputStatistics::spread). What looks like larger noise may be the shape of a terrain, which is alike at every scale
+/// (`benches/scenes.md`, Terrain).
+const MAX_SMOOTH_NOISE_SHARE: f64 = 0.042;
 
 /// Root mean square distance that a surface may have from heights without noise, as a share of their range
 /// (`benches/scenes.md`, One constant at a time).
@@ -30,6 +30,8 @@ pub(crate) struct InputStatistics {
     pub noise: Option<Noise>,
     /// Difference between the highest and the lowest height.
     pub range: f64,
+    /// Range of evenly distributed heights with the same standard deviation, which a few summits do not change.
+    pub spread: f64,
     /// Whether a camera has measured the heights.
     pub is_measured: bool,
 }
@@ -40,6 +42,7 @@ impl InputStatistics {
             || options.energy_or_default() == Energy::Huber;
         Ok(InputStatistics {
             range: height_range(input),
+            spread: height_spread(input),
             is_measured: input.is_measured,
             scale: options.normalization.factor(&input.field),
             noise: if wanted {
@@ -59,6 +62,7 @@ pub(crate) fn initial_options(
         noise,
         scale,
         range,
+        spread,
         is_measured,
     }: InputStatistics,
 ) -> (Options, LambdaChoice, Option<Aim>) {
@@ -92,7 +96,7 @@ pub(crate) fn initial_options(
         }
     };
     let is_shape = noise.is_some_and(|noise| {
-        noise.is_correlated() && !is_measured && noise.sigma > MAX_SMOOTH_NOISE_SHARE * range
+        noise.is_correlated() && !is_measured && noise.sigma > MAX_SMOOTH_NOISE_SHARE * spread
     });
     choice.ambiguous = is_shape;
     let tolerance = match options.tolerance {

@@ -118,6 +118,15 @@ pub(super) fn height_range(input: &Input) -> f64 {
     (high - low).max(0.0)
 }
 
+/// Range of evenly distributed heights with the standard deviation of those of an input.
+pub(super) fn height_spread(input: &Input) -> f64 {
+    let heights = || input.field.heights().iter().filter(|z| z.is_finite());
+    let count = heights().count() as f64;
+    let mean = heights().sum::<f64>() / count;
+    let variance = heights().map(|z| (z - mean).powi(2)).sum::<f64>() / count;
+    (12.0 * variance).sqrt()
+}
+
 /// Estimates the standard deviation of white noise from rings of six neighbours: the sum of a ring's heights with
 /// alternating signs is 0 for every quadratic. The median over all rings discards creases. `None` if there are fewer
 /// than [`MIN_NOISE_SAMPLES`] rings.
@@ -151,6 +160,8 @@ fn ring_noise(input: &Input) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Options;
+    use crate::fit::tuning::closed_form::{InputStatistics, initial_options};
     use crate::heights::heightfield::Heightfield;
     use crate::lattice::hexagonal::Lattice;
 
@@ -354,6 +365,23 @@ mod tests {
             );
             assert!((0.5..2.0).contains(&(length / blur)), "{blur} {found:?}");
         }
+    }
+
+    /// Noise that is small for a slope from 0 to 1 is not told from the shape of a plain with one summit of that height.
+    #[test]
+    fn a_summit_does_not_make_noise_of_a_terrain() {
+        let slope = |x: f64, _: f64| x;
+        let summit = |x: f64, y: f64| (1.0 - 8.0 * (x - 0.5).hypot(y - 0.5)).max(0.0);
+        let is_ambiguous = |shape: fn(f64, f64) -> f64| {
+            let shape = Heightfield::from_fn(lattice(), shape).unwrap();
+            let heights = shape.heights().iter().zip(blurred(4, [1.6; 2]));
+            let heights = heights.map(|(z, n)| z + 0.025 * n).collect();
+            let field = Heightfield::new(lattice(), heights).unwrap();
+            let options = Options::default();
+            let statistics = InputStatistics::of(&field.into(), &options).unwrap();
+            initial_options(&options, statistics).1.ambiguous
+        };
+        assert!(!is_ambiguous(slope) && is_ambiguous(summit));
     }
 
     /// Smooth bends are no noise, whether they stand alone or behind small noise.

@@ -137,10 +137,11 @@ pub fn photo_output(photo: &PhotoFile) -> Result<JsValue> {
 
 /// Writes JavaScript's height image by a function of the library.
 pub fn written(
-    image: ImageInput,
+    mut image: ImageInput,
     format: &str,
-    write: impl FnOnce(&HeightImage, Format) -> developable::Result<Vec<u8>>,
+    write: impl FnOnce(&HeightImage, Format, Option<&Georeference>) -> developable::Result<Vec<u8>>,
 ) -> Result<Uint8Array> {
-    let file = write(&image.into_image()?, format.parse()?)?;
+    let map = image.georeference.take();
+    let file = write(&image.into_image()?, format.parse()?, map.as_ref())?;
     Ok(file.as_slice().into())
 }

@@ -63,11 +63,8 @@ pub fn arrays(bytes: &Uint8Array) -> Result<JsValue> {
 #[wasm_bindgen(js_name = writeImage)]
 pub fn write_image(image: JsValue, format: &str) -> Result<Uint8Array> {
     let mut input = from_value::<ImageInput>(image)?;
-    let map = input.georeference.take();
-    if let (Some(map), None) = (&map, input.pixel_size) {
+    if let (Some(map), None) = (&input.georeference, input.pixel_size) {
         input.pixel_size = Some(map.pixel_size((input.width, input.height)));
     }
-    written(input, format, |image, format| {
-        extended::write(image, format, map.as_ref())
-    })
+    written(input, format, extended::write)
 }

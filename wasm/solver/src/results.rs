@@ -9,7 +9,7 @@ use developable::Report;
 
 /// Heights of a fitted surface on its hexagonal lattice, as in `Heightfield`, and the report on the fit.
 #[derive(Serialize)]
-#[serde(rename = "FittedHeights")]
+#[serde(rename = "FittedHeights", rename_all = "camelCase")]
 pub struct SurfaceOutput<'a> {
     /// Number of rows of the lattice.
     pub rows: usize,
@@ -25,6 +25,9 @@ pub struct SurfaceOutput<'a> {
     /// The surface at the pixels of the input, if that is an image.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub image: Option<ImageOutput>,
+    /// Root mean square distance of `image` from the heights of the input, over the pixels that have both, in the surface's unit of length: what neither the lattice nor the fit has kept of them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pixel_distance: Option<f64>,
     /// Report on the fit: what was solved, how well, and at what cost.
     pub report: &'a Report,
 }

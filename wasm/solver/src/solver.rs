@@ -82,16 +82,19 @@ impl Solver {
         let surface = self.solver.surface()?;
         let field = surface.heightfield();
         let image = match &self.pixels {
-            Some(image) => Some(ImageOutput::from(&field.to_image(image)?)),
+            Some(image) => Some(field.to_image(image)?),
             None => None,
         };
+        let measured = self.source.measured_pixels();
+        let distance = |image: &HeightImage| Some(image.distance(measured?));
         Ok(to_value(&SurfaceOutput {
             rows: field.lattice().rows(),
             cols: field.lattice().cols(),
             spacing: field.lattice().spacing(),
             origin: field.lattice().origin(),
             heights: field.heights().into(),
-            image,
+            pixel_distance: image.as_ref().and_then(distance),
+            image: image.as_ref().map(ImageOutput::from),
             report: surface.report(),
         })?)
     }

@@ -137,6 +137,14 @@ impl Source {
         }
     }
 
+    /// The measured heights of the input, if it is given as an image of them.
+    pub fn measured_pixels(&self) -> Option<&HeightImage> {
+        match self {
+            Source::Image(image) if !image.design => Some(&image.heights),
+            _ => None,
+        }
+    }
+
     /// Makes the input of a solve, and the image that its surface is resampled to; no image for an input on a lattice.
     pub fn input(&self, settings: &Settings) -> Result<(Input, Option<HeightImage>)> {
         match self {

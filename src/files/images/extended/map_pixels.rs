@@ -63,6 +63,7 @@ impl Georeference {
             keys: keys.into(),
             doubles: Vec::new(),
             text: String::new(),
+            size: None,
         }
     }
 

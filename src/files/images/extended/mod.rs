@@ -15,7 +15,7 @@ pub(super) mod webp;
 
 use super::decode_options::DecodeOptions;
 use super::decoded::Decoded;
-use super::georeference::Georeference;
+use super::georeference::{Georeference, on_own_pixels};
 use super::photo::decode_other_photo;
 use crate::error::Result;
 use crate::files::failure::{in_format, not_read, unsupported};
@@ -53,7 +53,10 @@ pub fn decode(bytes: &[u8], format: Format, options: &DecodeOptions) -> Result<D
 /// As [`write_image`](super::write_image); [`Error::Unsupported`](crate::Error::Unsupported) for PNG and NPY.
 pub fn write(image: &HeightImage, format: Format, map: Option<&Georeference>) -> Result<Vec<u8>> {
     match format {
-        Format::Tiff => tiff::write_tiff(image, map),
+        Format::Tiff => {
+            let own = on_own_pixels(map, image)?;
+            tiff::write_tiff(own.as_ref().unwrap_or(image), map)
+        }
         Format::Exr => exr::write_exr(image),
         _ => Err(unsupported(format, "it is not written here")),
     }

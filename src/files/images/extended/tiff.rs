@@ -150,6 +150,7 @@ fn write(
     let side = image.pixel_size();
     let tags = picture.encoder();
     match map {
+        Some(map) if map.size.is_some() => write_map(tags, map)?,
         Some(map) => write_map(
             tags,
             &map.with_pixel_size((image.width(), image.height()), side),

@@ -234,6 +234,7 @@ fn georeference(
         keys,
         doubles,
         text,
+        size: None,
     }))
 }
 

@@ -390,8 +390,8 @@ export function readPhoto(file: PhotoSource): Promise<DecodedPhoto>;
 export function writePhoto(photo: SizedPhoto, options?: WritePhotoOptions & HandOver): Promise<Uint8Array<ArrayBuffer>>;
 /**
  * Writes a PDF file with one page for each entry, of the entry's `size`, on which its picture is centred and as large as fits. Pictures
- * are JPEG files, or PNG files without transparency, and are taken over without loss; others reject with code `UNSUPPORTED`, and so do
- * `words` outside of their picture. With its words a page can be searched and copied from.
+ * are JPEG or PNG files, and are taken over without loss, those with transparency on white; others reject with code `UNSUPPORTED`, and
+ * so do `words` outside of their picture. With its words a page can be searched and copied from.
  */
 export function writeBook(pages: readonly BookPage[], options?: WriteBookOptions): Promise<Uint8Array<ArrayBuffer>>;
 /** Generates a procedural example: a height image with noise, and the true heights. */

@@ -375,7 +375,7 @@ export interface SizedPhoto extends Photo {
 
 /** One page of a PDF file. */
 export interface BookPage {
-  /** A JPEG or PNG file without transparency, as `writePhoto` writes it. */
+  /** A JPEG or PNG file, as `writePhoto` writes it; it is white where it is transparent. */
   picture: Uint8Array | ArrayBuffer;
   /** Width and height of the page, in millimetres. */
   size: readonly [number, number];

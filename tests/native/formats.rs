@@ -725,9 +725,17 @@ fn books_take_pictures_as_they_are_and_refuse_others() {
     assert_eq!(refused(b"GIF89a", size), "UNSUPPORTED");
     assert_eq!(refused(&pictures[0], [1.0, 297.0]), "UNSUPPORTED");
     assert_eq!(refused(&pictures[0], [f64::NAN, 297.0]), "UNSUPPORTED");
-    let see_through: Vec<u8> = rgba.iter().map(|v| v / 2).collect();
-    let see_through = write_photo(&Photo::new(40, 30, &see_through).unwrap(), &options).unwrap();
-    assert_eq!(refused(&see_through, size), "UNSUPPORTED");
+    // What is transparent lies on white.
+    let book_of = |rgba: &[u8]| {
+        let picture = write_photo(&Photo::new(40, 30, rgba).unwrap(), &options).unwrap();
+        one_page_book(&picture, size, &[]).unwrap()
+    };
+    let black = [0, 0, 0, 255].repeat(600);
+    let see_through = [&black[..], &[90, 60, 30, 0].repeat(600)].concat();
+    let on_white = [&black[..], &[255; 2400]].concat();
+    assert!(book_of(&see_through) == book_of(&on_white));
+    let half = book_of(&[100, 200, 0, 51].repeat(1200));
+    assert!(half == book_of(&[224, 244, 204, 255].repeat(1200)));
     assert_eq!(write_book(&[], None).unwrap_err().code(), "EMPTY");
     // Cut off anywhere, a file is refused or goes in as it is, without a panic.
     for picture in &pictures {

@@ -15,7 +15,7 @@ const OBJECTS_PER_PAGE: i32 = 3;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BookPage<'a> {
     /// JPEG or PNG file of the picture, as [`write_photo_jpeg`] and [`write_photo`] write it. It goes into the PDF as it
-    /// is, without loss.
+    /// is, without loss, and on white where it is transparent.
     pub picture: &'a [u8],
     /// Width and height of the page, in millimetres.
     pub size: [f64; 2],
@@ -61,7 +61,7 @@ pub fn write_photo_pdf(
 ///
 /// # Errors
 /// [`Error::Empty`] without pages; [`Error::Unsupported`] if a side of a page is below 2 mm or above 5.08 m, the
-/// format's limit, for pictures that are neither JPEG nor PNG without transparency, and for words outside of their
+/// format's limit, for pictures that are neither JPEG nor PNG, and for words outside of their
 /// picture; [`Error::Format`] for a damaged picture; [`Error::TooLarge`] if words have more than 65 535 different
 /// characters.
 pub fn write_book(pages: &[BookPage<'_>], title: Option<&str>) -> Result<Vec<u8>> {

@@ -5,7 +5,10 @@ use std::borrow::Cow;
 use ::png::{ColorType, Transformations};
 
 use super::jpeg::OpenedJpeg;
+use super::photo::decode_photo_basic;
 use super::png;
+use super::print::{OnWhite, PhotoOptions, write_photo};
+use crate::dewarp::Photo;
 use crate::error::Result;
 use crate::files::failure::{in_format, not_read, unsupported};
 use crate::files::image_format::Format;
@@ -33,11 +36,11 @@ pub(super) struct PictureData<'a> {
 }
 
 impl<'a> PictureData<'a> {
-    /// Reads the header of a JPEG or PNG file; the pixels are not decoded.
+    /// Reads the header of a JPEG or PNG file. The pixels are decoded only of a PNG file with transparency, a palette or
+    /// interlacing, and are on white then.
     ///
     /// # Errors
-    /// [`Error::Unsupported`](crate::Error::Unsupported) for other files, and for pictures with transparency, a palette or
-    /// interlacing; [`Error::Format`](crate::Error::Format) for a damaged one.
+    /// [`Error::Unsupported`](crate::Error::Unsupported) for other files, [`Error::Format`](crate::Error::Format) for a damaged one.
     pub fn new(file: &'a [u8]) -> Result<Self> {
         match Format::detect(file) {
             Some(Format::Png) => Self::from_png(file).map_err(in_format(Format::Png)),
@@ -49,15 +52,20 @@ impl<'a> PictureData<'a> {
         }
     }
 
-    fn from_png(file: &'a [u8]) -> Result<Self> {
+    fn from_png(file: &[u8]) -> Result<Self> {
         let (reader, size) = png::open(file, Transformations::IDENTITY, usize::MAX)?;
         let info = reader.info();
         let channels = match (info.color_type, info.interlaced) {
             (ColorType::Grayscale, false) => 1,
             (ColorType::Rgb, false) => 3,
             _ => {
-                let reason = "for a page of a PDF it must be grey or in colours, without transparency, palette and interlacing";
-                return Err(not_read(reason));
+                let file = decode_photo_basic(file)?;
+                if file.width * file.height < size[0] * size[1] {
+                    return Err(not_read("it has too many pixels for one with transparency"));
+                }
+                let photo = Photo::new(file.width, file.height, &file.rgba)?;
+                let opaque = write_photo(&OnWhite(&photo), &PhotoOptions::default())?;
+                return Self::from_png(&opaque);
             }
         };
         let mut data = Vec::new();

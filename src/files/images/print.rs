@@ -186,8 +186,8 @@ pub fn write_photo_jpeg(photo: &impl PhotoRows, options: &PhotoOptions) -> Resul
     if let Some(density) = density {
         encoder.set_density(density);
     }
-    let white = OnWhite {
-        photo,
+    let white = JpegRows {
+        photo: OnWhite(photo),
         width,
         height,
     };
@@ -219,14 +219,33 @@ fn density(dots_per_millimetre: f64) -> Option<PixelDensity> {
     })
 }
 
-/// A photo laid on a white background, which is read row by row.
-struct OnWhite<'a, P> {
-    photo: &'a P,
+/// A photo on white where it is transparent.
+pub(super) struct OnWhite<'a, P>(pub &'a P);
+
+impl<P: PhotoRows> PhotoRows for OnWhite<'_, P> {
+    fn size(&self) -> [usize; 2] {
+        self.0.size()
+    }
+
+    fn read(&self, row: usize, rgba: &mut [u8]) {
+        self.0.read(row, rgba);
+        for [colour @ .., alpha] in rgba.as_chunks_mut::<4>().0 {
+            let [own, white] = [*alpha, u8::MAX - *alpha].map(u32::from);
+            *colour =
+                colour.map(|value| ((u32::from(value) * own + 255 * white + 127) / 255) as u8);
+            *alpha = u8::MAX;
+        }
+    }
+}
+
+/// An opaque photo that is written as a JPEG file.
+struct JpegRows<'a, P> {
+    photo: OnWhite<'a, P>,
     width: u16,
     height: u16,
 }
 
-impl<P: PhotoRows> ImageBuffer for OnWhite<'_, P> {
+impl<P: PhotoRows> ImageBuffer for JpegRows<'_, P> {
     fn get_jpeg_color_type(&self) -> JpegColorType {
         JpegColorType::Ycbcr
     }
@@ -242,11 +261,8 @@ impl<P: PhotoRows> ImageBuffer for OnWhite<'_, P> {
     fn fill_buffers(&self, row: u16, [y, cb, cr, _]: &mut [Vec<u8>; 4]) {
         let mut line = vec![0; 4 * usize::from(self.width)];
         self.photo.read(row.into(), &mut line);
-        for pixel in line.chunks_exact(4) {
-            let alpha = u32::from(pixel[3]);
-            let on_white =
-                |value: u8| ((u32::from(value) * alpha + 255 * (255 - alpha) + 127) / 255) as u8;
-            let colour = rgb_to_ycbcr(on_white(pixel[0]), on_white(pixel[1]), on_white(pixel[2]));
+        for [red, green, blue, _] in line.as_chunks().0 {
+            let colour = rgb_to_ycbcr(*red, *green, *blue);
             y.push(colour.0);
             cb.push(colour.1);
             cr.push(colour.2);

@@ -85,7 +85,8 @@ function reportFit({ summary: { mismatch, worstJoint, worstAngle } }) {
   const words = [];
   if (worstJoint !== undefined) {
     const [a, b] = worstJoint.lengths.map((long) => long.toFixed(2));
-    if (a !== b) words.push(`the two sides of a joint differ in length by at most ${percent(mismatch, 2)} (${a} and ${b} mm)`);
+    // Rounding is no difference.
+    if (Math.abs(Number(a) - Number(b)) > 0.015) words.push(`the two sides of a joint differ in length by at most ${percent(mismatch, 2)} (${a} and ${b} mm)`);
   }
   if (worstAngle !== undefined) {
     words.push(`the angles of the pieces around a point differ from those on the surface by at most ${Math.abs(worstAngle.flat - worstAngle.surface).toFixed(1)}°`);
@@ -114,7 +115,8 @@ function reportSlits({ slits, slitLength, sheets, strain }) {
 
 /** Warns of parts of the surface that are on no sheet. @param {import('../types.js').Drawing['summary']} summary */
 function reportMissing({ missing }) {
-  const squares = (/** @type {number} */ area) => `${(area / 100).toFixed(area < 1000 ? 1 : 0)} cm²`;
+  const squares = (/** @type {number} */ area) =>
+    area < 100 ? `${Number(area.toPrecision(2))} mm²` : `${(area / 100).toFixed(area < 1000 ? 1 : 0)} cm²`;
   const words = [];
   if (missing !== undefined && missing.vertices > 0) {
     words.push(`${counted(missing.vertices, 'vertex', 'vertices')} (${squares(missing.area)}) left out, which lie flat with nothing beside them or are crumbs`);

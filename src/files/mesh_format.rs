@@ -110,7 +110,7 @@ pub(super) const STL_TRIANGLE_BYTES: usize = 50;
 
 /// Returns whether a file has exactly the length of a binary STL file with the number of triangles in its header.
 fn is_binary_stl(bytes: &[u8]) -> bool {
-    stl_length(bytes).is_some_and(|length| length > STL_HEADER_BYTES && length == bytes.len())
+    stl_length(bytes) == Some(bytes.len())
 }
 
 /// Returns whether a file begins as an ASCII STL file does. Binary files may do so, too.

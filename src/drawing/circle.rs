@@ -5,8 +5,8 @@ use crate::math::planar::{Point2, bounds, circle_through, distance, distance_to_
 use crate::math::simplify::simplify_polyline;
 use crate::scene::polyhedron::MAX_BEND_STEP;
 
-/// Maximum distance of an arc's points from its circle, as a share of the radius.
-const ARC_TOLERANCE_SHARE: f64 = 2e-4;
+/// Maximum distance of an arc's points from its circle, as a share of how far the circle bulges beyond the pieces there.
+const MAX_OFF_PER_BULGE: f64 = 0.2;
 
 /// Minimum number of pieces of an arc; any three may be on a circle.
 const MIN_ARC_PIECES: usize = 4;
@@ -70,20 +70,16 @@ fn longest_arc(points: &[[f64; 2]]) -> Option<(usize, [f64; 2])> {
         (a * d - b * c).atan2(a * c + b * d)
     };
     let way = step(points[0], points[1]).signum();
-    let is_on = |pair: &[[f64; 2]]| {
-        let angle = way * step(pair[0], pair[1]);
+    let mut before = 0.0;
+    let is_on = |pair: &&[[f64; 2]]| {
+        let (angle, long) = (way * step(pair[0], pair[1]), distance(pair[0], pair[1]));
+        let bulge = f64::max(before, long).powi(2) / (8.0 * radius);
+        before = long;
         let away = (distance(pair[1], centre) - radius).abs();
-        angle > 0.0 && angle <= MAX_BEND_STEP && away <= ARC_TOLERANCE_SHARE * radius
+        angle > 0.0 && angle <= MAX_BEND_STEP && away <= MAX_OFF_PER_BULGE * bulge
     };
-    let pieces = points.windows(2).take_while(|pair| is_on(pair)).count();
-    // What bulges by no more than the tolerance is straight.
-    let turned: f64 = points
-        .windows(2)
-        .take(pieces)
-        .map(|pair| way * step(pair[0], pair[1]))
-        .sum();
-    let bulge = 1.0 - (0.5 * turned).cos();
-    (pieces >= MIN_ARC_PIECES && bulge > ARC_TOLERANCE_SHARE).then_some((pieces, centre))
+    let pieces = points.windows(2).take_while(is_on).count();
+    (pieces >= MIN_ARC_PIECES).then_some((pieces, centre))
 }
 
 /// Adds Bézier curves along the arc around a centre through points.

@@ -1,5 +1,7 @@
 //! Solids of sheet metal: two parallel skins at a constant distance, and the rim between them.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Matrix3;
 
 use crate::error::Result;
@@ -20,22 +22,27 @@ const MAX_OPPOSITE_COSINE: f64 = -0.9;
 /// give.
 const MAX_THICKNESS_SHARE: f64 = 0.1;
 
+/// Maximum mean cosine of the angle between a skin and the rim along it: a blank is cut straight through. No table chose it: 0 where
+/// edges are sharp, 0.7 where they are chamfered.
+const MAX_MEAN_LEAN: f64 = 0.1;
+
 /// Maximum product of the numbers of facets and triangles: some seconds of search in wasm.
 const MAX_FACET_TRIANGLE_PAIRS: usize = 100_000_000;
 
-/// A solid of sheet metal: its thickness, and the one of its skins that has the larger area.
+/// A solid of sheet metal, or several of the same: their thickness, and of each the one of its skins that has the larger area.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct SheetMetal {
     /// Distance of the two skins, in the mesh's units.
     pub thickness: f64,
-    /// The skin as an open mesh, seen from outside of the solid. Laid flat with a
+    /// The skins as an open mesh, seen from outside of the solids. Laid flat with a
     /// [`Bending`](crate::drawing::Bending) of the thickness it is the blank that the solid is bent from.
     pub skin: Mesh,
 }
 
-/// Recognises a solid of sheet metal: a closed mesh with exact faces most of whose area has, at one depth, a parallel face
-/// below it. `None` for any other mesh, and for one of so many facets and triangles that the search would take seconds.
+/// Recognises solids of sheet metal: a closed mesh with exact faces most of whose area has, at one depth, a parallel face
+/// below it, in each of its components. `None` for any other mesh, and for one of so many facets and triangles that the search would
+/// take seconds.
 /// Costs `O(facets · triangles)`.
 ///
 /// # Errors
@@ -49,51 +56,33 @@ pub fn sheet_metal(mesh: &Mesh) -> Result<Option<SheetMetal>> {
         return Ok(None);
     }
     let depths = depths(&solid);
-    let mut sorted: Vec<(f64, f64)> = (depths.iter().zip(&solid.areas))
-        .filter_map(|(depth, area)| Some(((*depth)?, *area)))
-        .collect();
-    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let whole: f64 = solid.areas.iter().sum();
-    let parallel: f64 = sorted.iter().map(|(_, area)| area).sum();
-    let mut below = 0.0;
-    let median = sorted.iter().find(|(_, area)| {
-        below += area;
-        below >= 0.5 * parallel
-    });
-    let Some(thickness) = median.map(|(depth, _)| *depth) else {
-        return Ok(None);
-    };
-    let is_skin = |facet: u32| {
-        let depth = depths[facet as usize];
-        depth.is_some_and(|d| (d - thickness).abs() <= MAX_DEPTH_DIFFERENCE * thickness)
-    };
-    let mut sets = UnionFind::new("facets", solid.areas.len())?;
+    let mut bodies = UnionFind::new("facets", solid.areas.len())?;
     for (side, twin) in (0u32..).zip(&solid.twins) {
-        let [a, b] = [side, *twin].map(|side| solid.facet(side));
-        if is_skin(a) && is_skin(b) {
-            sets.union(a, b);
+        bodies.union(solid.facet(side), solid.facet(*twin));
+    }
+    let mut facets: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for facet in 0..solid.areas.len() as u32 {
+        facets.entry(bodies.find(facet)).or_default().push(facet);
+    }
+    // Each body is to be cut from the same sheet.
+    let mut thickness: Option<f64> = None;
+    let mut is_skin = vec![false; solid.areas.len()];
+    for body in facets.values() {
+        let Some((own, skin)) = skin(&solid, &depths, body)? else {
+            return Ok(None);
+        };
+        let first = *thickness.get_or_insert(own);
+        if !is_alike(own, first) {
+            return Ok(None);
         }
+        skin.iter()
+            .for_each(|facet| is_skin[*facet as usize] = true);
     }
-    let mut skins = vec![0.0; solid.areas.len()];
-    for facet in (0..solid.areas.len() as u32).filter(|facet| is_skin(*facet)) {
-        skins[sets.find(facet) as usize] += solid.areas[facet as usize];
-    }
-    let mut order: Vec<u32> = (0..skins.len() as u32).collect();
-    order.sort_by(|a, b| skins[*b as usize].total_cmp(&skins[*a as usize]));
-    let [large, small] = [0, 1].map(|k| order.get(k).map_or(0.0, |root| skins[*root as usize]));
-    // The rim has less area than either skin, and goes around both alike: ribs and domes are on one of them only.
-    let is_sheet =
-        small >= whole - large - small && thickness <= MAX_THICKNESS_SHARE * large.sqrt();
-    if !is_sheet {
+    let Some(thickness) = thickness else {
         return Ok(None);
-    }
-    let counts = [0, 1].map(|k| borders(&solid, |facet| sets.find(facet) == order[k]));
-    let [own, other] = counts;
-    if own? != other? {
-        return Ok(None);
-    }
+    };
     let own = (solid.triangles.iter().zip(&solid.facets))
-        .filter(|(_, facet)| sets.find(**facet) == order[0])
+        .filter(|(_, facet)| is_skin[**facet as usize])
         .map(|(corners, _)| *corners);
     let own = own.collect();
     let places = solid.places.iter().map(|place| (*place).into()).collect();
@@ -103,25 +92,112 @@ pub fn sheet_metal(mesh: &Mesh) -> Result<Option<SheetMetal>> {
     }))
 }
 
-/// Number of the closed lines around some facets.
-fn borders(solid: &Polyhedron, mut is_own: impl FnMut(u32) -> bool) -> Result<usize> {
-    let mut lines = UnionFind::new("vertices", solid.places.len())?;
-    let mut on_border = Vec::new();
-    for (side, twin) in (0u32..).zip(&solid.twins) {
-        if is_own(solid.facet(side)) && !is_own(solid.facet(*twin)) {
-            let [a, b] = half_edge_ends(&solid.triangles, side);
-            lines.union(a, b);
-            on_border.push(a);
+/// Whether a depth is a thickness.
+fn is_alike(depth: f64, thickness: f64) -> bool {
+    (depth - thickness).abs() <= MAX_DEPTH_DIFFERENCE * thickness
+}
+
+/// The thickness of a body, given by its facets, and the facets of its larger skin; `None` if it is no sheet.
+fn skin(
+    solid: &Polyhedron,
+    depths: &[Option<Depth>],
+    body: &[u32],
+) -> Result<Option<(f64, Vec<u32>)>> {
+    let area = |facet: &u32| solid.areas[*facet as usize];
+    let mut sorted: Vec<(f64, f64)> = (body.iter())
+        .filter_map(|facet| Some((depths[*facet as usize]?.depth, area(facet))))
+        .collect();
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let whole: f64 = body.iter().map(area).sum();
+    let parallel: f64 = sorted.iter().map(|(_, area)| area).sum();
+    let mut below = 0.0;
+    let median = sorted.iter().find(|(_, area)| {
+        below += area;
+        below >= 0.5 * parallel
+    });
+    let Some(thickness) = median.map(|(depth, _)| *depth) else {
+        return Ok(None);
+    };
+    let is_skin = |facet: u32| depths[facet as usize].is_some_and(|d| is_alike(d.depth, thickness));
+    let mut sets = UnionFind::new("facets", solid.areas.len())?;
+    for side in solid.inner_sides() {
+        let [a, b] = [side, solid.twins[side as usize]].map(|side| solid.facet(side));
+        if is_skin(a) && is_skin(b) {
+            sets.union(a, b);
         }
     }
-    let mut found: Vec<u32> = on_border.into_iter().map(|v| lines.find(v)).collect();
-    found.sort_unstable();
-    found.dedup();
-    Ok(found.len())
+    let mut skins: BTreeMap<u32, (f64, Vec<u32>)> = BTreeMap::new();
+    for facet in body.iter().filter(|facet| is_skin(**facet)) {
+        let own = skins.entry(sets.find(*facet)).or_default();
+        own.0 += area(facet);
+        own.1.push(*facet);
+    }
+    let mut skins: Vec<(f64, Vec<u32>)> = skins.into_values().collect();
+    skins.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let [first, second, ..] = &skins[..] else {
+        return Ok(None);
+    };
+    // Below each skin is the other one.
+    let above = |facets: &[u32], other: &[u32]| -> Vec<u32> {
+        let below = |facet: &u32| depths[*facet as usize].map(|depth| depth.below);
+        let is_above = |facet: &&u32| below(facet).is_some_and(|b| other.binary_search(&b).is_ok());
+        facets.iter().filter(is_above).copied().collect()
+    };
+    let [own, other] = [above(&first.1, &second.1), above(&second.1, &first.1)];
+    let [large, small] = [&own, &other].map(|facets| facets.iter().map(area).sum::<f64>());
+    // The rim has less area than either skin, and goes around both alike: ribs and domes are on one of them only.
+    let is_thin = small.min(large) >= whole - large - small
+        && thickness <= MAX_THICKNESS_SHARE * large.sqrt();
+    if !is_thin {
+        return Ok(None);
+    }
+    let [border, other] = [&own, &other].map(|facets| Border::new(solid, facets));
+    let (border, other) = (border?, other?);
+    let is_sheet = border.lines == other.lines && border.lean <= MAX_MEAN_LEAN;
+    Ok(is_sheet.then_some((thickness, own)))
+}
+
+/// The border of a skin: the number of its closed lines, and the mean cosine of the angle between the skin and the rim along it.
+struct Border {
+    lines: usize,
+    lean: f64,
+}
+
+impl Border {
+    /// `facets` are the skin's, in ascending order.
+    fn new(solid: &Polyhedron, facets: &[u32]) -> Result<Border> {
+        let is_own = |side: u32| facets.binary_search(&solid.facet(side)).is_ok();
+        let mut lines = UnionFind::new("vertices", solid.places.len())?;
+        let mut on_border = Vec::new();
+        let (mut length, mut leaning) = (0.0, 0.0);
+        for (side, twin) in (0u32..).zip(&solid.twins) {
+            if is_own(side) && !is_own(*twin) {
+                let [a, b] = half_edge_ends(&solid.triangles, side);
+                lines.union(a, b);
+                on_border.push(a);
+                length += solid.length(side);
+                leaning += solid.length(side) * solid.angle(side).cos().abs();
+            }
+        }
+        let mut found: Vec<u32> = on_border.into_iter().map(|v| lines.find(v)).collect();
+        found.sort_unstable();
+        found.dedup();
+        Ok(Border {
+            lines: found.len(),
+            lean: leaning / length.max(f64::MIN_POSITIVE),
+        })
+    }
+}
+
+/// How deep a solid is below a facet, and the facet that ends it there.
+#[derive(Clone, Copy)]
+struct Depth {
+    depth: f64,
+    below: u32,
 }
 
 /// Depth of the solid below the middle of each facet's largest triangle, where a parallel face ends it.
-fn depths(solid: &Polyhedron) -> Vec<Option<f64>> {
+fn depths(solid: &Polyhedron) -> Vec<Option<Depth>> {
     let mut largest: Vec<Option<(f64, Place)>> = vec![None; solid.areas.len()];
     for (t, facet) in solid.facets.iter().enumerate() {
         let [a, b, c] = solid.corners(t);
@@ -137,8 +213,9 @@ fn depths(solid: &Polyhedron) -> Vec<Option<f64>> {
         let hits = (0..solid.triangles.len()).filter(|t| solid.facets[*t] as usize != facet);
         let hits = hits.filter_map(|t| Some((distance_along(from, down, solid.corners(t))?, t)));
         let (depth, t) = hits.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let below = solid.normals[solid.facets[t] as usize];
-        (below.dot(&solid.normals[facet]) <= MAX_OPPOSITE_COSINE).then_some(depth)
+        let below = solid.facets[t];
+        let cosine = solid.normals[below as usize].dot(&solid.normals[facet]);
+        (cosine <= MAX_OPPOSITE_COSINE).then_some(Depth { depth, below })
     };
     largest.iter().enumerate().map(depth).collect()
 }

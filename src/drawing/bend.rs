@@ -20,6 +20,10 @@ const MAX_FOLD_BOW_SPACINGS: f64 = 0.5;
 /// Largest distance between a corner of the outline and the end of a fold there, as a share of the length of the fold that is bent.
 const END_ROUNDING: f64 = 1e-6;
 
+/// Largest distance of the pieces of a fold from one line, as a share of the length of one, and largest difference of their angles, as a
+/// share. No table chose it: they are equal up to rounding.
+const PIECE_ROUNDING: f64 = 1e-3;
+
 /// Applies the bend allowance to all folds of a sheet; an error if a fold is not a straight line from edge to edge.
 pub(super) fn apply_bend_allowance(
     number: usize,
@@ -30,9 +34,10 @@ pub(super) fn apply_bend_allowance(
     let Some(bending) = options.bending else {
         return Ok(out);
     };
+    let mut is_applied = vec![false; sheet.folds.len()];
     for k in 0..sheet.folds.len() {
         let fold = out.folds[k].clone();
-        if !fold.is_made() {
+        if !fold.is_made() || is_applied[k] {
             continue;
         }
         if !is_straight(&fold, out.spacing) {
@@ -50,7 +55,13 @@ pub(super) fn apply_bend_allowance(
             None => bending.zone(direction, angle),
         };
         let zone = zone.map(|millimetres| millimetres / options.scale);
-        let bend = Bend::new(&out, &fold, zone).map_err(|reason| Error::Unsupported {
+        let mut line = (vec![k], tips(&fold));
+        let mut found = Bend::new(&out, &fold, line.1, zone);
+        if found.is_err() {
+            line = whole_line(&out, &fold);
+            found = Bend::new(&out, &fold, line.1, zone);
+        }
+        let bend = found.map_err(|reason| Error::Unsupported {
             format: "pattern",
             reason: format!(
                 "fold {} of sheet {} {reason}; without a thickness it is drawn as it is",
@@ -58,8 +69,11 @@ pub(super) fn apply_bend_allowance(
                 number + 1
             ),
         })?;
-        out.area += polyline_length(&fold.points) * 2.0 * (zone[1] - zone[0]);
-        bend.apply(&mut out, k);
+        for k in &line.0 {
+            is_applied[*k] = true;
+            out.area += polyline_length(&out.folds[*k].points) * 2.0 * (zone[1] - zone[0]);
+        }
+        bend.apply(&mut out, &line.0);
     }
     join_bends(&mut out);
     Ok(out)
@@ -95,6 +109,37 @@ fn join_bends(sheet: &mut Sheet) {
     });
 }
 
+/// The folds along the line of a fold that turn as much, and the ends of the line: a hole divides it.
+fn whole_line(sheet: &Sheet, fold: &Fold) -> (Vec<usize>, [Point; 2]) {
+    let [from, to] = tips(fold);
+    let along = (to - from) / (to - from).norm();
+    let away = |tip: Point| along.conj() * (tip - from);
+    let is_piece = |other: &Fold| {
+        other.is_made()
+            && other.seam.direction == fold.seam.direction
+            && (other.seam.angle - fold.seam.angle).abs() <= PIECE_ROUNDING * fold.seam.angle
+            && tips(other)
+                .iter()
+                .all(|tip| away(*tip).im.abs() <= PIECE_ROUNDING * (to - from).norm())
+    };
+    let pieces: Vec<usize> = (0..sheet.folds.len())
+        .filter(|k| is_piece(&sheet.folds[*k]))
+        .collect();
+    let far = pieces
+        .iter()
+        .flat_map(|k| tips(&sheet.folds[*k]))
+        .map(|tip| away(tip).re);
+    let [low, high] = far.fold([f64::MAX, f64::MIN], |[low, high], far| {
+        [low.min(far), high.max(far)]
+    });
+    (pieces, [low, high].map(|far| from + along * far))
+}
+
+/// The ends of a fold.
+fn tips(fold: &Fold) -> [Point; 2] {
+    [fold.points[0], fold.points[fold.points.len() - 1]].map(|tip| point(&tip))
+}
+
 /// Whether all points of a fold are near the line between its ends.
 fn is_straight(fold: &Fold, spacing: f64) -> bool {
     let ends = [fold.points[0], fold.points[fold.points.len() - 1]];
@@ -118,19 +163,18 @@ struct Bend {
 type Corner = (Point, usize);
 
 impl Bend {
+    /// The bend of a fold, whose line goes from edge to edge between two points.
     fn new(
         sheet: &Sheet,
         fold: &Fold,
+        ends: [Point; 2],
         [setback, half]: [f64; 2],
     ) -> std::result::Result<Bend, &'static str> {
-        let points: Vec<Point> = fold.points.iter().map(point).collect();
-        let ends = [points[0], points[points.len() - 1]];
         let near = |p: Point, line: [Point; 2]| {
             let [x, y] = nearest_on_segment([p.re, p.im], line.map(|p| [p.re, p.im]));
             Point::new(x, y)
         };
         // Exact faces may leave room where their folds meet.
-        let tips = |fold: &Fold| [fold.points[0], fold.points[fold.points.len() - 1]];
         let meets = |other: &Fold| {
             other.seam.crease != fold.seam.crease
                 && tips(other).iter().any(|tip| tips(fold).contains(tip))
@@ -209,8 +253,8 @@ impl Bend {
         place + self.normal(side) * by
     }
 
-    /// Moves all points of a sheet, except those of the fold itself, by the bend allowance.
-    fn apply(&self, sheet: &mut Sheet, own: usize) {
+    /// Moves all points of a sheet by the bend allowance, except those of the folds along its own line.
+    fn apply(&self, sheet: &mut Sheet, own: &[usize]) {
         let arcs = [0, 1].map(|side| self.arc(side));
         let area =
             |side: usize| -> Vec<Point> { self.sides[side].iter().map(|(p, _)| *p).collect() };
@@ -243,19 +287,17 @@ impl Bend {
                 rebuild(outline, &arcs.concat());
                 continue;
             }
-            // A hole lies on one side of the fold as a whole.
-            let side = side(point(&outline[0].points[0]));
             for place in outline.iter_mut().flat_map(|run| &mut run.points) {
-                *place = to(place, side);
+                *place = to(place, side(point(place)));
             }
         }
         for (k, fold) in sheet.folds.iter_mut().enumerate() {
-            if k != own {
+            if !own.contains(&k) {
                 let side = side(point(&middle(&fold.points)));
                 fold.points
                     .iter_mut()
                     .for_each(|place| *place = to(place, side));
-            } else {
+            } else if own.len() == 1 {
                 fold.points = self.ends.map(|p| [p.re, p.im]).to_vec();
             }
         }

@@ -131,7 +131,7 @@ impl Fold {
 pub struct Bend {
     /// Number of the bend, the same for all of its folds and for no other bend's.
     pub number: u32,
-    /// Angle by which all folds of the bend turn together, in radians.
+    /// Angle by which all folds of the bend turn together, in radians, and the line along which a bend all around is cut.
     pub angle: f64,
     /// Radius of the surface in the bend, in the surface's units; the mean one of a cone.
     pub radius: f64,

@@ -47,8 +47,12 @@ pub(super) fn radii(solid: &Polyhedron, patches: &FlatPatches) -> Vec<Option<[f6
 }
 
 /// Tells the folds of each bend of a sheet which bend that is; `bend_of` gives the number of a fold's bend, with its
-/// radius and the length of its chords for each radian.
-pub(super) fn mark_bends(folds: &mut [Fold], bend_of: impl Fn(&Fold) -> Option<(u32, [f64; 2])>) {
+/// radius and the length of its chords for each radian, and `cut_angles` how much a bend all around turns where it is cut.
+pub(super) fn mark_bends(
+    folds: &mut [Fold],
+    cut_angles: &FxHashMap<u32, f64>,
+    bend_of: impl Fn(&Fold) -> Option<(u32, [f64; 2])>,
+) {
     let mut of: FxHashMap<u32, ([f64; 2], Vec<usize>)> = FxHashMap::default();
     for (k, fold) in folds.iter().enumerate() {
         if let Some((number, radii)) = bend_of(fold) {
@@ -71,11 +75,12 @@ pub(super) fn mark_bends(folds: &mut [Fold], bend_of: impl Fn(&Fold) -> Option<(
             .collect();
         let mut seen = FxHashSet::default();
         lines.retain(|(crease, _)| seen.insert(*crease));
-        let angle: f64 = lines.iter().map(|(_, angle)| angle).sum();
+        let folded: f64 = lines.iter().map(|(_, angle)| angle).sum();
+        let angle = folded + cut_angles.get(&number).unwrap_or(&0.0);
         let mut turned = 0.0;
         let past = lines.iter().find(|(_, own)| {
             turned += own;
-            turned >= 0.5 * angle - 1e-9
+            turned >= 0.5 * folded - 1e-9
         });
         let central = past.map(|(crease, _)| *crease);
         for k in own {

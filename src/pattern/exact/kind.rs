@@ -28,24 +28,21 @@ impl MeshKind {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn of(mesh: &Mesh) -> Result<MeshKind> {
-        let solid = Polyhedron::new(mesh).ok();
-        let exactness = (solid.as_ref()).map_or(Exactness::None, Exactness::of_solid);
-        if exactness == Exactness::None
-            && let Some(found) = noisy_faces(mesh)?
-        {
-            return Ok(MeshKind::NoisyFaces(found));
-        }
-        let Some(solid) = solid else {
+        let Ok(solid) = Polyhedron::new(mesh) else {
             return Ok(MeshKind::Noisy);
         };
+        let exactness = Exactness::of_solid(&solid);
         let known = match has_few_faces(&solid) {
             true => Exactness::Faces,
             false => exactness,
         };
-        let rolled = match known {
-            Exactness::None => None,
-            _ => divided_bends(&solid, known),
-        };
+        let rolled = divided_bends(&solid, known);
+        if rolled.is_none()
+            && exactness == Exactness::None
+            && let Some(found) = noisy_faces(mesh)?
+        {
+            return Ok(MeshKind::NoisyFaces(found));
+        }
         Ok(match (rolled, known) {
             (Some(found), _) => MeshKind::Bends(found),
             (None, Exactness::Faces) => MeshKind::Faces,

@@ -40,10 +40,15 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
     let sides = 0..solid.twins.len() as u32;
     let spacing = sides.map(|side| solid.length(side)).sum::<f64>() / edges;
     let radii = radii(solid, patches);
-    // The bend that goes on or ends at each fold, with its radii.
+    // The bend that goes on or ends at each fold, with its radii, and the angle at the line along which a bend all around is cut.
     let mut bend_at: Vec<Option<(u32, [f64; 2])>> = vec![None; creases.len()];
+    let mut cut_angles: FxHashMap<u32, f64> = FxHashMap::default();
     for side in solid.inner_sides() {
         let [a, b] = [side, solid.twins[side as usize]].map(|s| solid.facet(s));
+        let bend = patches.bends[a as usize];
+        if !net.is_closed(side) && bend == patches.bends[b as usize] {
+            cut_angles.insert(bend, solid.angle(side).abs());
+        }
         let [first, second] = [(a, b), (b, a)].map(|(own, other)| {
             let bend = patches
                 .goes_on(own, other)
@@ -63,7 +68,9 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
         let members = members.filter(|(_, facet)| is_own[**facet as usize]);
         let members: Vec<u32> = members.map(|(t, _)| t).collect();
         let mut sheet = flat.sheet(&members, |_| 0.0);
-        mark_bends(&mut sheet.folds, |fold| bend_at[fold.seam.crease]);
+        mark_bends(&mut sheet.folds, &cut_angles, |fold| {
+            bend_at[fold.seam.crease]
+        });
         Sheet {
             spacing,
             area: area(facets),

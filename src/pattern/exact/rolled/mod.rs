@@ -3,6 +3,7 @@
 
 mod cone;
 mod division;
+mod lines;
 mod roll;
 
 use std::f64::consts::PI;
@@ -18,10 +19,13 @@ use crate::scene::mesh::Mesh;
 use crate::scene::polyhedron::{Place, Polyhedron};
 use cone::Cone;
 use division::Division;
-use roll::{MAX_DISTANCE_ROUNDINGS, Roll};
+use roll::{Roll, tolerance};
 
 /// Number of neighbouring facets from which a cylinder is found. `benches/patterns.md` has what others give.
 const SEED_FACETS: usize = 8;
+
+/// Number of facets without a bend after which a mesh that may have noise has none. No table chose it: noise is in all of them.
+const MAX_FRUITLESS_SEEDS: usize = 64;
 
 /// Maximum area of a slender facet, as a share of the square of its longest side. `benches/patterns.md` has what others give.
 const MAX_SLENDER_SHARE: f64 = 0.05;
@@ -42,7 +46,11 @@ pub(super) fn divided_bends(solid: &Polyhedron, exactness: Exactness) -> Option<
     if !solid.textured.is_empty() || solid.twins != twin_half_edges(&solid.triangles) {
         return None;
     }
-    let mut rolls = Search::new(solid).rolls();
+    let max_fruitless = match exactness {
+        Exactness::None => MAX_FRUITLESS_SEEDS,
+        _ => usize::MAX,
+    };
+    let mut rolls = Search::new(solid).rolls(max_fruitless);
     if exactness != Exactness::Faces && !are_all_known(solid, &rolls) {
         return None;
     }
@@ -62,7 +70,7 @@ pub(super) fn divided_bends(solid: &Polyhedron, exactness: Exactness) -> Option<
     })
 }
 
-/// Whether bends end at their faces, or at lines along them, and there are no others.
+/// Whether bends end at their faces, at lines along them or at sharp edges, and there are no others.
 fn are_all_known(solid: &Polyhedron, rolls: &[Roll]) -> bool {
     let mut roll_of = vec![None; solid.normals.len()];
     for (k, roll) in rolls.iter().enumerate() {
@@ -77,17 +85,20 @@ fn are_all_known(solid: &Polyhedron, rolls: &[Roll]) -> bool {
         let ends_at = |k: usize, facet: u32| {
             rolls[k].is_along(solid, side) || rolls[k].faces.iter().any(|(face, _)| *face == facet)
         };
-        match facets.map(|facet| roll_of[facet as usize]) {
-            [None, None] => !solid.is_step(side),
-            [Some(k), None] => ends_at(k, facets[1]),
-            [None, Some(k)] => ends_at(k, facets[0]),
-            [Some(j), Some(k)] => j == k,
-        }
+        !solid.is_step(side)
+            || match facets.map(|facet| roll_of[facet as usize]) {
+                [None, None] => false,
+                [Some(k), None] => ends_at(k, facets[1]),
+                [None, Some(k)] => ends_at(k, facets[0]),
+                [j, k] => j == k,
+            }
     })
 }
 
 struct Search<'a> {
     solid: &'a Polyhedron,
+    /// Distance within which a place lies on a surface.
+    near: f64,
     triangles: Vec<Vec<u32>>,
     /// Facets that each facet meets at a small angle, or at any if they are so slender that they face no side.
     around: Vec<Vec<u32>>,
@@ -118,15 +129,17 @@ impl Search<'_> {
         }
         Search {
             solid,
+            near: tolerance(solid),
             triangles,
             around,
             is_slender,
         }
     }
 
-    /// All bends.
-    fn rolls(&self) -> Vec<Roll> {
+    /// All bends; none if the first is not among so many facets.
+    fn rolls(&self, max_fruitless: usize) -> Vec<Roll> {
         let mut rolls: Vec<Roll> = Vec::new();
+        let mut fruitless = 0;
         let mut is_tried = vec![false; self.around.len()];
         for seed in 0..self.around.len() as u32 {
             // A rim leads to its slender facets, and they do not lead to it.
@@ -146,6 +159,10 @@ impl Search<'_> {
                 let (surface, facets) = self.surface(near.clone(), *is_conical)?;
                 Some(self.roll(surface, facets))
             });
+            fruitless += 1;
+            if rolls.is_empty() && found.is_none() && fruitless > max_fruitless {
+                break;
+            }
             if let Some(roll) = found {
                 (roll.facets.iter()).for_each(|facet| is_tried[*facet as usize] = true);
                 rolls.push(roll);
@@ -157,7 +174,7 @@ impl Search<'_> {
     /// Adds to the facets on a surface those that go over into faces, each corner of which is on the surface or such a face.
     fn roll(&self, surface: Cone, on: Vec<u32>) -> Roll {
         let solid = self.solid;
-        let near = MAX_DISTANCE_ROUNDINGS * solid.rounding;
+        let near = self.near;
         let outward = |facet: &u32| {
             let normal = &solid.normals[*facet as usize];
             let [angle, ..] = surface.coordinates(&self.points(&[*facet])[0]);
@@ -230,7 +247,7 @@ impl Search<'_> {
 
     /// The angle at which a face touches a surface: where its normal is the surface's.
     fn touches(&self, roll: &Roll, facet: u32) -> Option<f64> {
-        let near = MAX_DISTANCE_ROUNDINGS * self.solid.rounding;
+        let near = self.near;
         let normal = self.solid.normals[facet as usize] * roll.side;
         let angle = roll.surface.angle(&normal);
         let line = roll.surface.place([angle, 0.0]);
@@ -246,7 +263,6 @@ impl Search<'_> {
     /// The triangles of the facets of a bend, and of its faces those that begin to bend.
     fn triangles_of(&self, roll: &Roll) -> Vec<usize> {
         let solid = self.solid;
-        let near = MAX_DISTANCE_ROUNDINGS * solid.rounding;
         let own = (0..solid.triangles.len()).filter(|t| roll.facets.contains(&solid.facets[*t]));
         let mut triangles: Vec<usize> = own.collect();
         let mut seen: FxHashSet<usize> = triangles.iter().copied().collect();
@@ -257,7 +273,7 @@ impl Search<'_> {
             for twin in twins.iter().filter(|twin| **twin != NO_INDEX) {
                 let other = *twin as usize / 3;
                 let mut faces = roll.faces.iter().map(|(face, _)| *face);
-                let begins = |p: &Place| roll.begins_at(p, near);
+                let begins = |p: &Place| roll.begins_at(p, self.near);
                 if faces.any(|face| face == solid.facets[other])
                     && solid.corners(other).iter().any(begins)
                     && seen.insert(other)
@@ -280,7 +296,6 @@ impl Search<'_> {
 
     /// The surface that some facets lie on, and all facets on it around them.
     fn surface(&self, mut facets: Vec<u32>, is_conical: bool) -> Option<(Cone, Vec<u32>)> {
-        let near = MAX_DISTANCE_ROUNDINGS * self.solid.rounding;
         loop {
             let points = self.points(&facets);
             let normal = |facet: &u32| {
@@ -291,7 +306,7 @@ impl Search<'_> {
             let is_on = |points: &[Place]| {
                 points
                     .iter()
-                    .all(|p| surface.coordinates(p)[2].abs() <= near)
+                    .all(|p| surface.coordinates(p)[2].abs() <= self.near)
             };
             if !is_on(&points) {
                 return None;

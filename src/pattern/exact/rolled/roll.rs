@@ -1,13 +1,20 @@
 //! A bend of a mesh: the facets on one cylinder or cone.
 
-use rustc_hash::FxHashSet;
+use std::f64::consts::TAU;
+
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::cone::Cone;
 use crate::math::index::NO_INDEX;
 use crate::scene::polyhedron::{Place, Polyhedron};
 
 /// Distance from a cylinder, in units of the rounding, within which a point lies on it. `benches/patterns.md` has what others give.
-pub(super) const MAX_DISTANCE_ROUNDINGS: f64 = 4.0;
+const MAX_DISTANCE_ROUNDINGS: f64 = 4.0;
+
+/// Distance from a surface within which a place of a mesh lies on it, in the mesh's unit.
+pub(super) fn tolerance(solid: &Polyhedron) -> f64 {
+    MAX_DISTANCE_ROUNDINGS * solid.rounding
+}
 
 /// A bend: its surface, the facets on it, those that lie partly on it and partly in a face that it goes over into, and the faces,
 /// each with the angle at which it touches the surface.
@@ -29,11 +36,36 @@ impl Roll {
         let [a, b] = solid.ends(side);
         let middle = self.surface.coordinates(&(0.5 * (a + b)))[0];
         let off = (b - a).cross(&self.surface.ruling(middle)).norm();
-        off <= MAX_DISTANCE_ROUNDINGS * solid.rounding
+        off <= tolerance(solid)
     }
 
-    /// Whether its facets are strips along its rulings already.
+    /// Whether its facets are strips along its rulings already, each in one piece: a hole parts them.
     pub(super) fn is_divided(&self, solid: &Polyhedron) -> bool {
+        let mut strips: FxHashMap<u32, [f64; 2]> = FxHashMap::default();
+        for t in self.triangles.iter().copied() {
+            if self.facets.contains(&solid.facets[t]) {
+                let own = strips
+                    .entry(solid.facets[t])
+                    .or_insert([f64::MAX, f64::MIN]);
+                for [angle, ..] in solid.corners(t).map(|p| self.surface.coordinates(&p)) {
+                    let turns = match own[0] < f64::MAX {
+                        true => ((angle - own[0]) / TAU).round(),
+                        false => 0.0,
+                    };
+                    let angle = angle - TAU * turns;
+                    *own = [own[0].min(angle), own[1].max(angle)];
+                }
+            }
+        }
+        let mut middles: Vec<f64> = strips
+            .values()
+            .map(|[low, high]| 0.5 * (low + high))
+            .collect();
+        middles.sort_by(f64::total_cmp);
+        let near = tolerance(solid) / self.surface.radius.abs();
+        if middles.windows(2).any(|pair| pair[1] - pair[0] <= near) {
+            return false;
+        }
         let sides = self.triangles.iter().flat_map(|t| 3 * t..3 * t + 3);
         let mut lines = sides.filter(|side| {
             let (own, twin) = (solid.facets[side / 3], solid.twins[*side]);

@@ -159,6 +159,27 @@ mod tests {
         assert_eq!(with_arcs(&line), Curve::through(&sides));
     }
 
+    /// A plate whose corners are rounded, begun within one of them: three pieces of a corner follow a long side.
+    #[test]
+    fn long_sides_between_rounded_corners_stay_straight() {
+        let mut line = Vec::new();
+        for (k, [x, y]) in [[300.0, 0.0], [300.0, 300.0], [0.0, 300.0], [0.0, 0.0]]
+            .into_iter()
+            .enumerate()
+        {
+            line.extend((0..=18).map(|i| {
+                let angle = std::f64::consts::FRAC_PI_2 * (k as f64 - 1.0 + f64::from(i) / 18.0);
+                [x + 3.0 * angle.cos(), y + 3.0 * angle.sin()]
+            }));
+        }
+        line.rotate_left(9);
+        line.push(line[0]);
+        for p in with_arcs(&line).points(1e-3) {
+            let [x, y] = p.map(|v| (v - 150.0).abs());
+            assert!(x < 153.001 && y < 153.001, "{p:?}");
+        }
+    }
+
     #[test]
     fn straight_pieces_beside_an_arc_stay_straight() {
         let mut line = vec![[30.0, 4.0]];

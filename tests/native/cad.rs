@@ -267,6 +267,98 @@ fn a_tube_is_one_bend_all_around() {
     }
 }
 
+/// Two meshes in one, the second one beside the first.
+fn beside(one: &Mesh, other: &Mesh) -> Mesh {
+    let count = one.positions().len() as u32;
+    let moved = other
+        .positions()
+        .iter()
+        .map(|[x, y, z]| [*x, y + 500.0, *z]);
+    let triangles = other.triangles().iter().map(|t| t.map(|v| v + count));
+    Mesh::new(
+        one.positions().iter().copied().chain(moved).collect(),
+        one.triangles().iter().copied().chain(triangles).collect(),
+    )
+    .unwrap()
+}
+
+#[test]
+fn bodies_of_one_thickness_are_sheet_metal_together() {
+    let bent = |thickness: f64| strip(&[20.0, 15.0], 2.0, thickness, 80.0, 8);
+    let area = |mesh: &Mesh| {
+        let solid = pattern_exact(mesh, &NetOptions::default()).unwrap();
+        solid.sheets.iter().map(|sheet| sheet.area).sum::<f64>()
+    };
+    let one = sheet_metal(&bent(1.5)).unwrap().expect("sheet metal");
+    let two = sheet_metal(&beside(&bent(1.5), &bent(1.5))).unwrap();
+    let two = two.expect("sheet metal");
+    assert!((area(&two.skin) / area(&one.skin) - 2.0).abs() < 1e-6);
+    assert!((two.thickness - 1.5).abs() < 1e-5);
+    assert!(
+        sheet_metal(&beside(&bent(1.5), &bent(1.0)))
+            .unwrap()
+            .is_none()
+    );
+}
+
+/// A blank is cut straight through.
+#[test]
+fn a_plate_with_chamfers_is_no_sheet_metal() {
+    // Levels with their heights and how far they are inset.
+    let plate = |levels: &[(f64, f64)]| {
+        let mut points = Vec::new();
+        for (z, inset) in levels {
+            let [x, y] = [240.0, 215.0].map(|side| side - inset);
+            points.extend(
+                [[*inset, *inset], [x, *inset], [x, y], [*inset, y]].map(|[x, y]| [x, y, *z]),
+            );
+        }
+        let top = 4 * (levels.len() as u32 - 1);
+        let mut triangles = vec![
+            [0, 2, 1],
+            [0, 3, 2],
+            [top, top + 1, top + 2],
+            [top, top + 2, top + 3],
+        ];
+        for (level, k) in (0..top / 4).flat_map(|level| (0..4).map(move |k| (level, k))) {
+            let [a, b] = [4 * level + k, 4 * level + (k + 1) % 4];
+            triangles.extend([[a, b, b + 4], [a, b + 4, a + 4]]);
+        }
+        Mesh::new(points, triangles).unwrap()
+    };
+    let is_metal = |levels: &[(f64, f64)]| sheet_metal(&plate(levels)).unwrap().is_some();
+    assert!(is_metal(&[(0.0, 0.0), (4.0, 0.0)]));
+    assert!(!is_metal(&[
+        (0.0, 0.75),
+        (0.75, 0.0),
+        (3.25, 0.0),
+        (4.0, 0.75)
+    ]));
+}
+
+/// Of an open cone in any triangles no face is flat.
+#[test]
+fn an_open_cone_is_a_sector() {
+    let rows = [
+        (0.0, 30.0, 63),
+        (10.0, 25.0, 48),
+        (20.0, 20.0, 48),
+        (30.0, 15.0, 48),
+        (40.0, 10.0, 63),
+    ];
+    let closed = turned(&rows);
+    let wall = closed.triangles().iter().filter(|t| {
+        let [a, b, c] = t.map(|v| closed.positions()[v as usize][2]);
+        a != b || b != c
+    });
+    let mesh = Mesh::new(closed.positions().to_vec(), wall.copied().collect()).unwrap();
+    let (pattern, is_divided) = pattern_of(&mesh);
+    assert!(is_divided);
+    assert_eq!(pattern.sheets.len(), 1);
+    let area = PI * (30.0 + 10.0) * 40.0 * f64::hypot(1.0, 0.5);
+    assert!((pattern.sheets[0].area / area - 1.0).abs() < 2e-3);
+}
+
 /// A hole divides the lines of a bend, and its edges move with the sheet.
 #[test]
 fn a_bend_with_a_hole_has_its_allowance() {

@@ -21,24 +21,33 @@ pub(super) fn radii(solid: &Polyhedron, patches: &FlatPatches) -> Vec<Option<[f6
             lengths[*own as usize] += solid.length(side);
         }
     }
+    // In space a facet is a chord, even if it lies flat as long as its arc.
+    let mut chords = vec![0.0; solid.normals.len()];
+    for (t, facet) in solid.facets.iter().enumerate() {
+        let [a, b, c] = solid.corners(t);
+        chords[*facet as usize] += 0.5 * (b - a).cross(&(c - a)).norm();
+    }
     // A facet of a bend has a line on either side.
-    let width = |facet: u32| 2.0 * solid.areas[facet as usize] / lengths[facet as usize];
-    // Of each bend's inner lines the lengths, and the sums of these times the angles and times the mean widths of both sides.
-    let mut inner = vec![[0.0; 3]; solid.normals.len()];
+    let width = |areas: &[f64], facet: u32| 2.0 * areas[facet as usize] / lengths[facet as usize];
+    // Of each bend's inner lines the lengths, and the sums of these times the angles and times the mean widths of both sides, in space and
+    // laid flat.
+    let mut inner = vec![[0.0; 4]; solid.normals.len()];
     for side in solid.inner_sides() {
         let [a, b] = facets(side);
         if patches.bends[a as usize] == patches.bends[b as usize] {
             let (long, angle) = (solid.length(side), solid.angle(side).abs());
-            let of_line = [1.0, angle, 0.5 * (width(a) + width(b))];
+            let [chord, wide] =
+                [&chords, &solid.areas].map(|areas| 0.5 * (width(areas, a) + width(areas, b)));
+            let of_line = [1.0, angle, chord, wide];
             let sums = &mut inner[patches.bends[a as usize] as usize];
             *sums = std::array::from_fn(|k| sums[k] + long * of_line[k]);
         }
     }
     (inner.iter())
-        .map(|[long, turned, wide]| {
+        .map(|[long, turned, chord, wide]| {
             (*long > 0.0).then(|| {
                 [
-                    0.5 * (wide / long) / (0.5 * turned / long).sin(),
+                    0.5 * (chord / long) / (0.5 * turned / long).sin(),
                     wide / turned,
                 ]
             })

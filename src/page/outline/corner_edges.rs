@@ -6,7 +6,8 @@ use super::edge_path::EdgePath;
 use super::planes::Planes;
 use super::region::regions;
 use super::search::{MIN_PHOTO_SIDE_PIXELS, SAME_CORNER_SHARE};
-use super::tracing::{MIN_VISIBLE_SHARE, Views, thinned};
+use super::tracing::{MIN_VISIBLE_SHARE, thinned};
+use super::views::Views;
 use crate::dewarp::Photo;
 use crate::math::planar::{distance, polygon_contains, polyline_length};
 use crate::page::edges::{Edges, Trace};
@@ -146,7 +147,7 @@ fn edge_between(
     let beside_borders = (borders.iter()).filter_map(|border| arc_between(border, ends, tolerance));
     let path = std::iter::once(ends.to_vec())
         .chain(beside_borders)
-        .filter_map(|guide| EdgePath::new(&views.raw, &views.clean, &guide))
+        .filter_map(|guide| EdgePath::new(&views.without_print(), &guide))
         .filter(|path| path.visible * path.support >= MIN_VISIBLE_SHARE)
         .max_by(|one, other| one.clarity().total_cmp(&other.clarity()))?;
     Some(path.points)

@@ -1,8 +1,9 @@
 //! Edges of a page with subpixel accuracy: the path of strongest contrast in a band along a region's border.
 
 use super::corners::is_outside;
-use super::planes::{Planes, RIM_PIXELS};
+use super::planes::Planes;
 use super::smooth_curve::piecewise_smooth;
+use super::views::View;
 use crate::math::planar::distance;
 use crate::page::best_path::{best_path, parabola_peak};
 
@@ -16,16 +17,11 @@ pub(super) const AVERAGING_RADIUS: usize = 8;
 
 /// Number of pixels by which colour profiles across the border extend beyond the searched band on each side, for the
 /// colours of paper and background.
-const BAND_MARGIN: usize = AVERAGING_RADIUS / 2;
+pub(super) const BAND_MARGIN: usize = AVERAGING_RADIUS / 2;
 
 /// Length, in pixels, of the bends of a region's border that are smoothed before the page's edge is searched beside it.
 /// Its row: `benches/page.md`, Constants of the outline.
 const BORDER_SMOOTHING_LENGTH: f64 = 25.0;
-
-/// Cost of a sideways step by one pixel in the search for a page's edge, where full contrast earns 1 for each pixel of
-/// length.
-/// Its row: `benches/page.md`, Constants of the outline.
-const STEP_COST: f32 = 0.15;
 
 /// Difference of logarithmic colour between paper and background at which contrast in their direction and contrast of
 /// any colour have equal weight; below it the latter weighs more.
@@ -174,10 +170,10 @@ impl EdgePath {
         self.support * self.visible * self.contrast_score()
     }
 
-    /// Finds the edge of a page near a region's border, which is given clockwise from one corner to the next. `raw` is
-    /// the reduced photo, `clean` the same with print suppressed. `None` if the border is too short.
-    pub fn new(raw: &Planes, clean: &Planes, border: &[[f64; 2]]) -> Option<Self> {
-        let size = [raw.width, raw.height];
+    /// Finds the edge of a page in a view of a photo near a region's border, which is given clockwise from one corner to the
+    /// next. `None` if the border is too short.
+    pub fn new(view: &View<'_>, border: &[[f64; 2]]) -> Option<Self> {
+        let size = [view.raw.width, view.raw.height];
         let border = resampled(&piecewise_smooth(
             &resampled(border),
             BORDER_SMOOTHING_LENGTH,
@@ -186,31 +182,40 @@ impl EdgePath {
             return None;
         }
         let normals = inward_normals(&border);
-        let clean = Band::new(clean, &border, &normals);
-        let raw = Band::new(raw, &border, &normals);
+        let clean = Band::new(view.planes, &border, &normals);
+        let raw = Band::new(view.raw, &border, &normals);
         let strengths: Vec<_> = (0..border.len())
             .map(|i| edge_strengths(&clean, &raw, i))
             .collect();
         let searched = BAND_MARGIN..PROFILE_LENGTH - BAND_MARGIN;
         let path = best_path(
             strengths.iter().map(|own| &own[searched.clone()]),
-            STEP_COST,
+            view.step_cost,
         );
-        let mut contrasts = Vec::new();
+        let mut steps: Vec<Option<[f32; 3]>> = Vec::new();
         let points: Vec<[f64; 2]> = (0..border.len())
             .map(|i| {
                 let k = BAND_MARGIN + path[i];
                 let shift = parabola_peak([k - 1, k, k + 1].map(|k| strengths[i][k]));
                 let offset = k as f64 + shift - PROFILE_MIDDLE as f64;
                 let at = |offset: f64| [0, 1].map(|j| border[i][j] + offset * normals[i][j]);
-                if !is_outside(at(offset - RIM_PIXELS), size, 0.0) {
+                let is_seen = !is_outside(at(offset - view.ground_width), size, 0.0);
+                steps.push(is_seen.then(|| {
                     let profile = &clean.profiles[i];
-                    contrasts.push(difference(
-                        mean_colour(profile[k - BAND_MARGIN..k].iter()),
-                        mean_colour(profile[k + 1..=k + BAND_MARGIN].iter()),
-                    ));
-                }
+                    let ground = mean_colour(profile[k - BAND_MARGIN..k].iter());
+                    let paper = mean_colour(profile[k + 1..=k + BAND_MARGIN].iter());
+                    [0, 1, 2].map(|j| paper[j] - ground[j])
+                }));
                 at(offset)
+            })
+            .collect();
+        // Contrast of changing signs is none.
+        let reach = (view.averaged_share * border.len() as f64) as usize;
+        let contrasts: Vec<f32> = (0..steps.len())
+            .filter(|i| steps[*i].is_some())
+            .map(|i| {
+                let near = &steps[i.saturating_sub(reach)..(i + reach + 1).min(steps.len())];
+                difference([0.0; 3], mean_colour(near.iter().flatten()))
             })
             .collect();
         let seen = contrasts.iter().filter(|c| **c > MIN_EDGE_CONTRAST).count();

@@ -2,7 +2,7 @@
 
 use super::edge_path::AVERAGING_RADIUS;
 use super::morphology::box_mean;
-use super::tracing::Views;
+use super::views::Views;
 use crate::math::planar::polygon_contains;
 
 /// Minimum difference of logarithmic colour between a pixel and the same pixel with print suppressed for it to count as

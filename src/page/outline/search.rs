@@ -6,8 +6,8 @@ use super::outline_report::{OutlineReason, OutlineReport, OutlineVerdict, PageOu
 use super::print::Print;
 use super::print_frame::PrintFrame;
 use super::quadrilateral::Quadrilateral;
-use super::region::regions;
-use super::tracing::{Views, traced};
+use super::tracing::traced;
+use super::views::{View, Views};
 use crate::dewarp::Photo;
 use crate::math::planar::{distance, polygon_area, polygon_contains};
 use crate::page::text::ranking::ranked;
@@ -76,12 +76,42 @@ pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
     if views.raw.width.min(views.raw.height) < MIN_PHOTO_SIDE_PIXELS {
         return report(Vec::new());
     }
-    let half = views.clean.halved();
-    let min_area = (MIN_PAGE_SHARE * half.len() as f64) as usize;
+    let is_clear = |outlines: &Vec<PageOutline>, min_score: f64| {
+        outlines.first().is_some_and(|best| {
+            best.score >= min_score && !best.reasons.contains(&OutlineReason::FaintEdge)
+        })
+    };
+    let mut outlines = outlines_in(&views.without_print());
+    if !is_clear(&outlines, MIN_DOUBTFUL_SCORE) {
+        let others = outlines_in(&views.as_it_is());
+        // A pattern has edges of its own, which make doubtful outlines.
+        match is_clear(&others, MIN_FOUND_SCORE) {
+            true => outlines = others,
+            // What is seen around the print tells more than a region without a clear edge.
+            false => {
+                let around = around_print(&views);
+                outlines.splice(
+                    ..0,
+                    around.filter(|outline| outline.score >= MIN_DOUBTFUL_SCORE),
+                );
+            }
+        }
+    }
+    let mut report = report(outlines);
+    report.pages = (report.pages.into_iter())
+        .map(|outline| upright(outline, &views))
+        .collect();
+    report
+}
+
+/// Finds outlines of pages in one view of a photo, the best first.
+fn outlines_in(view: &View<'_>) -> Vec<PageOutline> {
+    let half = view.planes.halved();
+    let min_area = ((MIN_PAGE_SHARE * half.len() as f64) as usize).max(1);
     let tolerance = SAME_CORNER_SHARE * half.longer_side();
     let mut quadrilaterals: Vec<Quadrilateral> = Vec::new();
     for mask in candidate_masks(&half) {
-        for region in regions(&mask, half.width, min_area.max(1)) {
+        for region in view.regions(&mask, half.width, min_area) {
             quadrilaterals.extend(Quadrilateral::new(&region, half.width));
         }
     }
@@ -105,36 +135,21 @@ pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
                 .arcs
                 .each_ref()
                 .map(|arc| arc.iter().map(|p| p.map(|at| 2.0 * at + 0.5)).collect());
-            traced(&views, arcs, one.likeness)
+            traced(view, arcs, one.likeness)
         })
         .collect();
     // Of a page and a part of it that light or a fold sets off, the page.
     let rank =
         |outline: &PageOutline| outline.score * polygon_area(&outline.corners).abs().powf(0.25);
     outlines.sort_by(|one, other| rank(other).total_cmp(&rank(one)));
-    let is_clear = |best: &PageOutline| {
-        best.score >= MIN_DOUBTFUL_SCORE && !best.reasons.contains(&OutlineReason::FaintEdge)
-    };
-    if !outlines.first().is_some_and(is_clear) {
-        // What is seen around the print tells more than a region without a clear edge.
-        let around = around_print(&views);
-        outlines.splice(
-            ..0,
-            around.filter(|outline| outline.score >= MIN_DOUBTFUL_SCORE),
-        );
-    }
-    let mut report = report(outlines);
-    report.pages = (report.pages.into_iter())
-        .map(|outline| upright(outline, &views))
-        .collect();
-    report
+    outlines
 }
 
 /// Finds a page on a ground of its own colour by its print and the edges around that; such an outline is always doubtful.
 fn around_print(views: &Views) -> Option<PageOutline> {
     let print = Print::new(views);
     let (score, arcs) = PrintFrame::new(&views.raw, &print)?.best_outline(&print)?;
-    let mut outline = traced(views, arcs, 1.0)?;
+    let mut outline = traced(&views.without_print(), arcs, 1.0)?;
     outline.score = score;
     if !outline.reasons.contains(&OutlineReason::FaintEdge) {
         outline.reasons.push(OutlineReason::FaintEdge);

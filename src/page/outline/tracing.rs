@@ -5,16 +5,11 @@ use super::corners::{
 };
 use super::covered::seen_points;
 use super::edge_path::EdgePath;
-use super::morphology::closed;
 use super::outline_report::{OutlineReason, PageOutline};
 use super::planes::Planes;
 use super::quadrilateral::is_at_rim;
-use crate::dewarp::Photo;
+use super::views::View;
 use crate::math::planar::distance;
-
-/// Maximum width of print that is suppressed before the search for a page, as a share of the photo's longer side: bars
-/// of colour across a page are as high as that.
-const PRINT_WIDTH_SHARE: f64 = 0.03;
 
 /// Minimum share of an edge with visible contrast; below it the outline is reported as having a faint edge.
 const MIN_EDGE_SUPPORT: f64 = 0.85;
@@ -23,10 +18,6 @@ const MIN_EDGE_SUPPORT: f64 = 0.85;
 /// visible.
 pub(super) const MIN_VISIBLE_SHARE: f64 = 0.5;
 
-/// Minimum number of visible edges of a page: with fewer it can hardly be told from a table.
-/// Its row: `benches/page.md`, Constants of the outline.
-const MIN_VISIBLE_EDGES: usize = 3;
-
 /// Distance of a corner outside of the photo that is not reported, as a share of the photo's longer side.
 /// Its row: `benches/page.md`, One rule at a time.
 const MAX_OUTSIDE_SHARE: f64 = 0.01;
@@ -34,21 +25,6 @@ const MAX_OUTSIDE_SHARE: f64 = 0.01;
 /// Spacing of the points of a traced edge, in pixels of the reduced photo.
 /// Its row: `benches/page.md`, One rule at a time.
 const POINT_DISTANCE: usize = 3;
-
-/// The reduced photo as it is (`raw`), and with print suppressed (`clean`).
-pub(super) struct Views {
-    pub raw: Planes,
-    pub clean: Planes,
-}
-
-impl Views {
-    /// Reduces a photo, and suppresses the print in it.
-    pub fn new(photo: &Photo<'_>) -> Self {
-        let raw = Planes::from_photo(photo);
-        let clean = closed(&raw, (0.5 * PRINT_WIDTH_SHARE * raw.longer_side()) as usize);
-        Views { raw, clean }
-    }
-}
 
 /// Every third point of a traced edge, and its last one, in pixels of the photo; `raw` is the reduced photo.
 pub(super) fn thinned(edge: &[[f64; 2]], raw: &Planes) -> Vec<[f64; 2]> {
@@ -86,19 +62,19 @@ fn cut_corners(arcs: &mut [Vec<[f64; 2]>; 4], size: [usize; 2]) -> [Option<[f64;
     })
 }
 
-/// Traces the outline of a candidate page, whose border is given as four arcs in pixels of the reduced photo,
-/// clockwise, with the score `likeness` of its region. `None` if an edge is too short, or too few edges are visible.
+/// Traces the outline of a candidate page in a view of a photo; its border is given as four arcs in pixels of the reduced
+/// photo, clockwise, with the score `likeness` of its region. `None` if an edge is too short, or too few edges are visible.
 pub(super) fn traced(
-    views: &Views,
+    view: &View<'_>,
     mut arcs: [Vec<[f64; 2]>; 4],
     likeness: f64,
 ) -> Option<PageOutline> {
-    let size = [views.raw.width, views.raw.height];
+    let size = [view.raw.width, view.raw.height];
     let mut reasons = Vec::new();
     let cut = cut_corners(&mut arcs, size);
     let mut paths = Vec::new();
     for arc in &arcs {
-        paths.push(EdgePath::new(&views.raw, &views.clean, arc)?);
+        paths.push(EdgePath::new(view, arc)?);
     }
     let support = (paths.iter())
         .filter(|path| path.visible >= MIN_VISIBLE_SHARE)
@@ -136,11 +112,7 @@ pub(super) fn traced(
         one.reverse();
         edges[before] = one;
         edges[k] = other;
-        if is_outside(
-            corners[k],
-            size,
-            MAX_OUTSIDE_SHARE * views.raw.longer_side(),
-        ) {
+        if is_outside(corners[k], size, MAX_OUTSIDE_SHARE * view.raw.longer_side()) {
             is_corner_outside = true;
         }
     }
@@ -153,7 +125,7 @@ pub(super) fn traced(
     let visible_edges = (paths.iter())
         .filter(|path| path.visible >= MIN_VISIBLE_SHARE)
         .count();
-    if visible_edges < MIN_VISIBLE_EDGES {
+    if visible_edges < view.min_visible_edges {
         return None;
     }
     if visible_edges < 4 {
@@ -173,10 +145,10 @@ pub(super) fn traced(
         .product::<f64>()
         .sqrt()
         .sqrt();
-    let mut edges = edges.iter().map(|edge| thinned(edge, &views.raw));
+    let mut edges = edges.iter().map(|edge| thinned(edge, view.raw));
     let edges = [edges.next()?, edges.next()?, edges.next()?, edges.next()?];
     Some(PageOutline {
-        corners: corners.map(|corner| views.raw.to_photo(corner)),
+        corners: corners.map(|corner| view.raw.to_photo(corner)),
         edges,
         score: likeness * support * visible * contrast,
         reasons,

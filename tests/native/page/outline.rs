@@ -87,6 +87,16 @@ fn tiles([x, y]: [f64; 2]) -> Colour {
     }
 }
 
+/// A cloth of checks, its white ones as bright as paper.
+fn cloth([x, y]: [f64; 2]) -> Colour {
+    let [u, v] = [0.95 * x + 0.3 * y, 0.95 * y - 0.3 * x].map(|at| (at / 30.0).floor() as i64);
+    if (u + v).rem_euclid(2) == 0 {
+        PAPER
+    } else {
+        [170.0, 40.0, 40.0]
+    }
+}
+
 /// A photo: what is at each place, in light of a brightness, with noise of two levels of grey.
 fn photo(colour: impl Fn([f64; 2]) -> Colour, light: impl Fn([f64; 2]) -> f64) -> Vec<u8> {
     let mut rng = Rand64::new(5);
@@ -210,6 +220,14 @@ fn a_page_is_found_on_any_ground_and_under_hard_shadows() {
         &photo(pages(&[PAGE], poster, grey(120.0)), even),
         &PAGE,
     );
+}
+
+#[test]
+fn a_page_on_a_chequered_cloth_is_found() {
+    let report = found(&photo(pages(&[PAGE], letter, cloth), even));
+    assert_eq!(report.verdict, OutlineVerdict::Found);
+    let error = corner_error(&report.pages[0], &PAGE);
+    assert!(error < 10.0, "{error}");
 }
 
 /// Corners moved towards the middle of the page, or away from it, by a factor.
@@ -350,7 +368,13 @@ fn two_pages_are_both_found() {
 #[test]
 fn a_table_without_a_page_has_none() {
     type Ground = fn([f64; 2]) -> Colour;
-    let grounds: [(&str, Ground); 3] = [("wood", wood), ("tiles", tiles), ("grey", |_| DARK)];
+    let grounds: [(&str, Ground); 5] = [
+        ("wood", wood),
+        ("tiles", tiles),
+        ("grey", |_| DARK),
+        ("cloth", cloth),
+        ("larger checks", |[x, y]| cloth([0.5 * x, 0.5 * y])),
+    ];
     for (name, ground) in grounds {
         for light in [even, shadows] {
             let report = found(&photo(ground, light));

@@ -1,11 +1,15 @@
 //! Bends of a net: neighbouring narrow facets of a cylinder or cone, with the angle and the radius of the whole.
 
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
 
 use super::patches::FlatPatches;
 use crate::math::planar::Point2;
+use crate::math::statistics::median;
 use crate::pattern::sheets::{Bend, Fold};
 use crate::scene::polyhedron::Polyhedron;
+
+/// Largest distance of pieces of a fold from one line, as a share of its length. No table chose it: they are on it up to rounding.
+const PIECE_ROUNDING: f64 = 1e-6;
 
 /// Radius of each bend, at the number of the facet that names it: of the circle whose chords its facets are. Beside it the length of
 /// these chords for each radian that the bend turns.
@@ -29,29 +33,21 @@ pub(super) fn radii(solid: &Polyhedron, patches: &FlatPatches) -> Vec<Option<[f6
     }
     // A facet of a bend has a line on either side.
     let width = |areas: &[f64], facet: u32| 2.0 * areas[facet as usize] / lengths[facet as usize];
-    // Of each bend's inner lines the lengths, and the sums of these times the angles and times the mean widths of both sides, in space and
-    // laid flat.
-    let mut inner = vec![[0.0; 4]; solid.normals.len()];
+    // Both radii at each of a bend's inner lines; beside a hole they are none.
+    let mut inner = vec![[Vec::new(), Vec::new()]; solid.normals.len()];
     for side in solid.inner_sides() {
         let [a, b] = facets(side);
         if patches.bends[a as usize] == patches.bends[b as usize] {
-            let (long, angle) = (solid.length(side), solid.angle(side).abs());
             let [chord, wide] =
                 [&chords, &solid.areas].map(|areas| 0.5 * (width(areas, a) + width(areas, b)));
-            let of_line = [1.0, angle, chord, wide];
-            let sums = &mut inner[patches.bends[a as usize] as usize];
-            *sums = std::array::from_fn(|k| sums[k] + long * of_line[k]);
+            let angle = solid.angle(side).abs();
+            let [radii, chord_radii] = &mut inner[patches.bends[a as usize] as usize];
+            radii.push(0.5 * chord / (0.5 * angle).sin());
+            chord_radii.push(wide / angle);
         }
     }
-    (inner.iter())
-        .map(|[long, turned, chord, wide]| {
-            (*long > 0.0).then(|| {
-                [
-                    0.5 * (chord / long) / (0.5 * turned / long).sin(),
-                    wide / turned,
-                ]
-            })
-        })
+    (inner.iter_mut())
+        .map(|[radii, chord_radii]| Some([median(radii)?, median(chord_radii)?]))
         .collect()
 }
 
@@ -78,22 +74,25 @@ pub(super) fn mark_bends(
         let away = |k: &usize| (along.conj() * (middle(*k).0 - origin)).im;
         own.sort_by(|a, b| away(a).total_cmp(&away(b)));
         // The pieces of one line have one angle.
-        let mut lines: Vec<(usize, f64)> = own
-            .iter()
-            .map(|k| (folds[*k].seam.crease, folds[*k].seam.angle))
-            .collect();
-        let mut seen = FxHashSet::default();
-        lines.retain(|(crease, _)| seen.insert(*crease));
-        let folded: f64 = lines.iter().map(|(_, angle)| angle).sum();
+        let is_piece = |a: usize, b: usize| {
+            folds[a].seam.crease == folds[b].seam.crease
+                || (away(&a) - away(&b)).abs() <= PIECE_ROUNDING * along.norm()
+        };
+        let mut lines = own.clone();
+        lines.dedup_by(|a, b| is_piece(*a, *b));
+        let angle_of = |k: &usize| folds[*k].seam.angle;
+        let folded: f64 = lines.iter().map(angle_of).sum();
         let angle = folded + cut_angles.get(&number).unwrap_or(&0.0);
         let mut turned = 0.0;
-        let past = lines.iter().find(|(_, own)| {
-            turned += own;
+        let past = lines.iter().find(|k| {
+            turned += angle_of(k);
             turned >= 0.5 * folded - 1e-9
         });
-        let central = past.map(|(crease, _)| *crease);
-        for k in own {
-            let is_middle = Some(folds[k].seam.crease) == central;
+        let central = past.copied();
+        let is_middle: Vec<bool> = (own.iter())
+            .map(|k| central.is_some_and(|central| is_piece(*k, central)))
+            .collect();
+        for (k, is_middle) in own.into_iter().zip(is_middle) {
             folds[k].bend = Some(Bend {
                 number,
                 angle,

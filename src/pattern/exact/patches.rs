@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::math::index::NO_INDEX;
 use crate::math::union_find::UnionFind;
 use crate::scene::half_edges::half_edge_ends;
-use crate::scene::polyhedron::Polyhedron;
+use crate::scene::polyhedron::{Place, Polyhedron};
 
 /// Largest ratio of the curvatures of neighbouring facets of a bend. `benches/patterns.md` has what others give.
 pub(super) const MAX_BEND_CURVATURE_RATIO: f64 = 3.0;
@@ -19,8 +19,9 @@ pub(super) struct FlatPatches {
     pub areas: Vec<f64>,
     /// The bend that each facet is part of, by a facet of it: one or two patches. A facet alone is its own.
     pub bends: Vec<u32>,
-    /// The facets on both sides of each facet that is part of a bend, beyond the lines along which it is.
-    bent: Vec<Option<[u32; 2]>>,
+    /// The facets on both sides of each facet that is part of a bend, beyond the lines along which it is: several where a hole
+    /// divides a line.
+    bent: Vec<Option<[Vec<u32>; 2]>>,
 }
 
 impl FlatPatches {
@@ -125,38 +126,59 @@ impl FlatPatches {
     }
 }
 
-fn goes_on(bent: &[Option<[u32; 2]>], from: u32, to: u32) -> bool {
-    bent[from as usize].is_some_and(|beyond| beyond.contains(&to))
+fn goes_on(bent: &[Option<[Vec<u32>; 2]>], from: u32, to: u32) -> bool {
+    let beyond = bent[from as usize].as_ref();
+    beyond.is_some_and(|lines| lines.iter().any(|others| others.contains(&to)))
 }
 
-/// A line along which a facet meets another one at a small angle.
+/// A line along which a facet meets others at a small angle.
 struct Step {
-    other: u32,
+    others: Vec<u32>,
+    side: u32,
     angle: f64,
     length: f64,
-    ends: [u32; 2],
+    ends: Vec<u32>,
     is_closed: bool,
+}
+
+/// Whether two edges lie on one line.
+fn are_in_line(solid: &Polyhedron, [one, other]: [u32; 2]) -> bool {
+    let [a, b] = solid.ends(one);
+    let away = |p: Place| (b - a).cross(&(p - a)).norm() / (b - a).norm();
+    solid
+        .ends(other)
+        .into_iter()
+        .all(|p| away(p) <= solid.rounding)
 }
 
 /// The two lines along which each facet that is part of a bend goes on, as the facets beyond them; `None` for other facets. Along both
 /// it bends at a small angle of one sign, about as much as the facet beyond one of them: lone facets may be any polyhedron's, and a face
 /// between two bends is far less curved than both. If it meets more than two facets at small angles, as a vase does above and
 /// below, those are opposite sides, along which the sheet is folded rather than cut.
-fn bent_facets(solid: &Polyhedron, net: &Net) -> Vec<Option<[u32; 2]>> {
+fn bent_facets(solid: &Polyhedron, net: &Net) -> Vec<Option<[Vec<u32>; 2]>> {
     let mut steps: Vec<Vec<Step>> = Vec::new();
     steps.resize_with(solid.normals.len(), Vec::new);
     for side in solid.inner_sides().filter(|side| solid.is_step(*side)) {
         let twin = solid.twins[side as usize];
         for (own, other) in [(side, twin), (twin, side)] {
-            let (own, other) = (&mut steps[solid.facet(own) as usize], solid.facet(other));
-            match own.iter_mut().find(|step| step.other == other) {
-                Some(step) => step.length += solid.length(side),
-                None => own.push(Step {
-                    other,
-                    angle: solid.angle(side),
-                    length: solid.length(side),
-                    ends: half_edge_ends(&solid.triangles, side),
-                    is_closed: net.is_closed(side),
+            let (steps, other) = (&mut steps[solid.facet(own) as usize], solid.facet(other));
+            let ends = half_edge_ends(&solid.triangles, own);
+            let is_same = |step: &&mut Step| {
+                step.others.contains(&other) || are_in_line(solid, [step.side, own])
+            };
+            match steps.iter_mut().find(is_same) {
+                Some(step) => {
+                    step.others.push(other);
+                    step.length += solid.length(own);
+                    step.ends.extend(ends);
+                }
+                None => steps.push(Step {
+                    others: vec![other],
+                    side: own,
+                    angle: solid.angle(own),
+                    length: solid.length(own),
+                    ends: ends.to_vec(),
+                    is_closed: net.is_closed(own),
                 }),
             }
         }
@@ -177,17 +199,22 @@ fn bent_facets(solid: &Polyhedron, net: &Net) -> Vec<Option<[u32; 2]>> {
             }
         });
         let curvature = (a.angle + b.angle) * (a.length + b.length) / solid.areas[facet];
-        (a.angle * b.angle > 0.0).then_some(([a.other, b.other], curvature))
+        (a.angle * b.angle > 0.0).then_some(([a, b], curvature))
     };
-    let lines: Vec<Option<([u32; 2], f64)>> = (0..steps.len()).map(lines).collect();
-    let curvature = |facet: u32| lines[facet as usize].map_or(0.0, |(_, curvature)| curvature);
+    let lines: Vec<Option<([&Step; 2], f64)>> = (0..steps.len()).map(lines).collect();
+    let curvature = |facet: &u32| lines[*facet as usize].map_or(0.0, |(_, curvature)| curvature);
     let is_alike = |a: f64, b: f64| {
         a * b > 0.0 && a.abs().max(b.abs()) <= MAX_BEND_CURVATURE_RATIO * a.abs().min(b.abs())
     };
     let bent = lines.iter().map(|own| {
         let (beyond, own) = (*own)?;
-        let is_bent = beyond.iter().any(|other| is_alike(own, curvature(*other)));
-        is_bent.then_some(beyond)
+        let is_along = |step: &Step| {
+            step.others
+                .iter()
+                .any(|other| is_alike(own, curvature(other)))
+        };
+        let is_bent = beyond.iter().any(|step| is_along(step));
+        is_bent.then(|| beyond.map(|step| step.others.clone()))
     });
     bent.collect()
 }

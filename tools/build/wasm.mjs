@@ -24,11 +24,11 @@ import { run } from '../util/process.mjs';
  */
 const files = [
   { name: 'solver', limit: 271_000 },
-  { name: 'files', limit: 292_000 },
+  { name: 'files', limit: 295_000 },
   { name: 'images', limit: 591_000 },
   { name: 'meshes', limit: 345_000 },
   { name: 'fitmesh', limit: 231_000 },
-  { name: 'unroll', limit: 358_000 },
+  { name: 'unroll', limit: 363_000 },
   { name: 'patterns', limit: 656_000 },
 ];
 

@@ -17,7 +17,7 @@ pub(super) const AVERAGING_RADIUS: usize = 8;
 
 /// Number of pixels by which colour profiles across the border extend beyond the searched band on each side, for the
 /// colours of paper and background.
-pub(super) const BAND_MARGIN: usize = AVERAGING_RADIUS / 2;
+const BAND_MARGIN: usize = AVERAGING_RADIUS / 2;
 
 /// Length, in pixels, of the bends of a region's border that are smoothed before the page's edge is searched beside it.
 /// Its row: `benches/page.md`, Constants of the outline.

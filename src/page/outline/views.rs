@@ -1,7 +1,6 @@
 //! Views of a photo in which pages are searched: with print suppressed, and as it is.
 
 use super::corners::END_LENGTH_SHARE;
-use super::edge_path::BAND_MARGIN;
 use super::morphology::{closed, closed_plane};
 use super::planes::{Planes, RIM_PIXELS};
 use super::region::{Region, regions};
@@ -23,6 +22,11 @@ const STEP_COST: f32 = 0.15;
 /// The same in the photo as it is, where edges are not to follow a pattern of the ground.
 /// Its row: `benches/outline.md`, Patterned ground.
 const PATTERN_STEP_COST: f32 = 0.6;
+
+/// Width of the ground, in pixels, that the photo as it is shows beside each place where an edge is visible: a strip of shade along the
+/// rim is narrower.
+/// Its row: `benches/outline.md`, Patterned ground.
+const PATTERN_GROUND_PIXELS: f64 = 4.0;
 
 /// The reduced photo as it is (`raw`), and with print suppressed (`clean`).
 pub(super) struct Views {
@@ -81,7 +85,7 @@ impl Views {
             narrow: (0.25 * PRINT_WIDTH_SHARE * self.raw.longer_side()) as usize,
             step_cost: PATTERN_STEP_COST,
             averaged_share: END_LENGTH_SHARE,
-            ground_width: BAND_MARGIN as f64,
+            ground_width: PATTERN_GROUND_PIXELS,
             min_visible_edges: 4,
         }
     }

@@ -125,6 +125,17 @@ fn cones_in_any_triangles_are_sectors_with_their_discs() {
     }
 }
 
+/// The corners of a disc that ends a flat cone are on the cone as well.
+#[test]
+fn discs_of_flat_cones_are_no_parts_of_them() {
+    let mesh = turned(&[(0.0, 30.0, 63), (1.2, 10.0, 63)]);
+    let (pattern, _) = pattern_of(&mesh);
+    let discs = [30.0, 10.0].map(|radius| disc_area(radius, 63));
+    let area = PI * (30.0 + 10.0) * f64::hypot(20.0, 1.2) + discs[0] + discs[1];
+    let found: f64 = pattern.sheets.iter().map(|sheet| sheet.area).sum();
+    assert!((found / area - 1.0).abs() < 2e-3, "{found} {area}");
+}
+
 #[test]
 fn balls_are_no_cones() {
     let row = |k: u32| {

@@ -6,7 +6,7 @@ mod division;
 mod lines;
 mod roll;
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use rustc_hash::FxHashSet;
 
@@ -226,6 +226,7 @@ impl Search<'_> {
             let is_in = |facet: &u32| {
                 let mut points = self.points(&[*facet]).into_iter();
                 points.all(|p| roll.coordinates(&p, solid, near).is_some())
+                    && !self.reaches_across(&roll.surface, *facet)
             };
             (open, beside) = beside.into_iter().partition(is_in);
             if open.is_empty() {
@@ -294,6 +295,21 @@ impl Search<'_> {
             .collect()
     }
 
+    /// Whether a triangle of a facet joins places on opposite sides of a surface, as in a disc that ends a tube: its corners are on the
+    /// surface as well.
+    fn reaches_across(&self, surface: &Cone, facet: u32) -> bool {
+        let mut triangles = self.triangles[facet as usize].iter();
+        triangles.any(|t| {
+            let corners = self.solid.corners(*t as usize);
+            let on = corners.iter().filter(|p| !surface.is_tip(p, self.near));
+            let on = on.map(|p| surface.coordinates(p));
+            let on = on.filter(|[.., off]| off.abs() <= self.near);
+            let angles: Vec<f64> = on.map(|[angle, ..]| angle).collect();
+            let apart = |a: f64| (a - angles[0]).sin().atan2((a - angles[0]).cos()).abs();
+            angles.iter().any(|a| apart(*a) > FRAC_PI_2)
+        })
+    }
+
     /// The surface that some facets lie on, and all facets on it around them.
     fn surface(&self, mut facets: Vec<u32>, is_conical: bool) -> Option<(Cone, Vec<u32>)> {
         loop {
@@ -311,8 +327,10 @@ impl Search<'_> {
             if !is_on(&points) {
                 return None;
             }
-            let all = grow(&self.around, facets[0], |_, facet| {
-                is_on(&self.points(&[facet]))
+            facets.retain(|facet| !self.reaches_across(&surface, *facet));
+            let first = *facets.first()?;
+            let all = grow(&self.around, first, |_, facet| {
+                is_on(&self.points(&[facet])) && !self.reaches_across(&surface, facet)
             });
             if all.len() <= facets.len() {
                 return Some((surface, facets));

@@ -94,7 +94,7 @@ fn join_bends(sheet: &mut Sheet) {
             all.iter()
                 .filter(|other| other.bend.is_some_and(|b| b.number == bend.number))
         };
-        let [from, to] = [fold.points[0], fold.points[fold.points.len() - 1]].map(|p| point(&p));
+        let [from, to] = tips(fold);
         let across = (to - from) / (to - from).norm() * Point::new(0.0, 1.0);
         let away = own().map(|other| (across.conj() * (point(&middle(&other.points)) - from)).re);
         let [low, high] = away.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], away| {

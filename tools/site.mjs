@@ -95,9 +95,9 @@ export async function compressFiles(folder, { quality = BROTLI_QUICK_QUALITY } =
 /**
  * Writes the site from what is built.
  * @param {string} folder is made anew
- * @param {{ references?: boolean }} [options] whether the API reference belongs to it, and files are compressed best, which both take a while; default: no
+ * @param {{ references?: boolean, quality?: number }} [options] whether the API reference belongs to it, and files are compressed best, which both take a while; default: no; `quality` of that compression
  */
-export async function writeSite(folder, { references = false } = {}) {
+export async function writeSite(folder, { references = false, quality = references ? constants.BROTLI_MAX_QUALITY : BROTLI_QUICK_QUALITY } = {}) {
   await bundlePage(folder);
   for (const name of ['register.js', 'manifest.webmanifest', 'icon-192.png', 'icon-512.png', 'icon-maskable-512.png']) await copyFile(join(www, 'site', name), join(folder, name));
   await copyFile(join(www, 'icon.svg'), join(folder, 'icon.svg'));
@@ -108,7 +108,7 @@ export async function writeSite(folder, { references = false } = {}) {
   await writeGuide(folder, { references });
   if (references) await writeReferences(folder);
   await writeWorker(folder);
-  await compressFiles(folder, { quality: references ? constants.BROTLI_MAX_QUALITY : BROTLI_QUICK_QUALITY });
+  await compressFiles(folder, { quality });
 }
 
 /**

@@ -35,12 +35,15 @@ await writeFile(join(site, 'page.js'), `
 let browser;
 /** @type {Awaited<ReturnType<typeof serve>>} */
 let server;
+/** The page that tests share, whose modules and wasm are so loaded once. @type {Awaited<ReturnType<typeof openPage>>} */
+let shared;
 
 if (!skip) {
   before(async () => {
     await writeFile(join(site, 'broken.wasm'), trapping(await readFile(wasmFile), 'solver_surface'));
     server = await serve({ '/pkg/': pkg, '/': site });
     browser = await launch();
+    shared = await openPage(browser, server.url);
   });
   after(async () => {
     await browser?.close();
@@ -55,10 +58,9 @@ if (!skip) {
  */
 function inPage(name, body, expected = []) {
   test(name, { skip }, async () => {
-    const { page, incidents } = await openPage(browser, server.url);
+    const { page, incidents } = shared;
     await body(page);
-    assert.deepEqual(incidents.filter((text) => !expected.some((pattern) => pattern.test(text))), []);
-    await page.close();
+    assert.deepEqual(incidents.splice(0).filter((text) => !expected.some((pattern) => pattern.test(text))), []);
   });
 }
 

@@ -34,20 +34,6 @@ function checkPlane(positions, tolerance = 1e-6) {
   }
 }
 
-test('every pixel becomes a vertex on its ray', async () => {
-  const mesh = direct.backProject(image, camera);
-  checkPlane(mesh.positions, 1e-12);
-  for (const i of [0, width - 1, width * height - 1, 777]) {
-    const expected = ray(i).map((v) => v * depths[i]);
-    expected.forEach((v, k) => assert.ok(Math.abs(mesh.positions[3 * i + k] - v) < 1e-12));
-    assert.ok(Math.abs((mesh.uvs?.[2 * i] ?? 0) - ((i % width) + 0.5) / width) < 1e-6);
-    assert.ok(Math.abs((mesh.uvs?.[2 * i + 1] ?? 0) - (1 - (Math.floor(i / width) + 0.5) / height)) < 1e-6);
-  }
-  assert.equal(mesh.triangles.length, 6 * (width - 1) * (height - 1));
-  assert.deepEqual(await developable.backProject(image, camera), mesh);
-  assert.equal(depths.length, width * height, 'the depths are not taken away');
-});
-
 test('units, rays, masks and values without depth', () => {
   const mesh = direct.backProject(image, camera);
   const millimetres = depths.map((v) => 1000 * v);
@@ -67,63 +53,6 @@ test('units, rays, masks and values without depth', () => {
   assert.equal(triangles.length, mesh.triangles.length - 4 * 4 * 3);
 });
 
-test('from depths to a surface in the axes of the camera, with a picture of the same size', async () => {
-  const mesh = direct.backProject(image, camera);
-  const colors = Float32Array.from({ length: 3 * width * height }, (_, i) => (i % 3 === 0 ? (Math.floor(i / 3) % width) / width : 0.5));
-  for (const view of /** @type {const} */ (['-z', 'best-fit'])) {
-    const seen = direct.sampleMesh({ ...mesh, colors }, { view, resolution: 60 });
-    const surface = direct.fit(seen, { lambda: 'big' });
-    const back = direct.readMesh(direct.writePly(surface));
-    checkPlane(back.positions);
-    // Left in the picture is left in space.
-    const reds = [...(back.colors ?? [])].filter((_, i) => i % 3 === 0);
-    const xs = [...back.positions].filter((_, i) => i % 3 === 0);
-    const at = (/** @type {number} */ x) => reds[xs.indexOf(x)];
-    assert.ok(at(Math.min(...xs)) < 0.1 && at(Math.max(...xs)) > 0.9);
-    assert.equal(back.uvs?.length, 2 * xs.length);
-  }
-});
-
-test('a photo is laid on by the camera, wherever it was', async () => {
-  // Red says from where in the photo a colour is, green from how far down.
-  const size = { width: 160, height: 120 };
-  const photo = { ...size, data: Uint8ClampedArray.from({ length: 4 * 160 * 120 }, (_, i) => [Math.floor(i / 4) % 160, Math.floor(i / 640), 0, 255][i % 4]) };
-  const seen = direct.sampleMesh(direct.backProject(image, camera), { view: 'best-fit', resolution: 60 });
-  const surface = direct.fit(seen, { lambda: 'big' });
-  /**
-   * Colours where they belong, by the written file alone.
-   * @param {import('../../pkg/types.js').Heightfield} field
-   * @param {{ fx: number, fy: number, cx: number, cy: number, rotation?: number[][], translation?: number[] }} by in pixels of the photo
-   */
-  const check = (field, { fx, fy, cx, cy, translation: [tx, ty, tz] = [0, 0, 0] }) => {
-    const { positions, colors = [], uvs = [] } = direct.readMesh(direct.writeGlb({ ...field, texture: undefined }));
-    let inside = 0;
-    for (let i = 0; i < positions.length / 3; i++) {
-      const [x, y, z] = [positions[3 * i] + tx, -positions[3 * i + 1] + ty, -positions[3 * i + 2] + tz];
-      const [u, v] = [cx + (fx * x) / z, cy + (fy * y) / z];
-      if (u < 1 || v < 1 || u > 158 || v > 118) continue;
-      inside++;
-      assert.ok(Math.abs(255 * colors[3 * i] - u) < 0.6 && Math.abs(255 * colors[3 * i + 1] - v) < 0.6, `${i}: ${u} ${v}`);
-      assert.ok(Math.abs(160 * uvs[2 * i] - 0.5 - u) < 0.05 && Math.abs(120 * (1 - uvs[2 * i + 1]) - 0.5 - v) < 0.05);
-    }
-    return inside;
-  };
-  const scale = 160 / width;
-  const own = { fx: scale * camera.fx, fy: scale * camera.fy, cx: scale * (camera.cx + 0.5) - 0.5, cy: scale * (camera.cy + 0.5) - 0.5 };
-  // The surface is not where the depths were: the fitted points count.
-  const lifted = { ...surface, heights: surface.heights.map((z) => z + 0.03) };
-  assert.ok(check(direct.paint(surface, photo), own) > 500);
-  assert.ok(check(direct.paint(lifted, photo), own) > 500);
-  const elsewhere = { ...own, cx: own.cx + 3, ...size, translation: /** @type {const} */ ([0.04, -0.03, 0.02]), rotation: /** @type {const} */ ([[1, 0, 0], [0, 1, 0], [0, 0, 1]]) };
-  const painted = direct.paint(surface, photo, { camera: elsewhere });
-  assert.ok(check(painted, { ...elsewhere, rotation: undefined, translation: [...elsewhere.translation] }) > 400);
-  assert.deepEqual((await developable.paint(surface, photo, { camera: elsewhere })).colors, painted.colors);
-  // A photo that is no image of this camera, and two ways to say the same.
-  const square = { width: 10, height: 10, data: new Uint8ClampedArray(400) };
-  assert.throws(() => direct.paint(surface, square), error('UNSUPPORTED', /10 × 10/));
-  assert.throws(() => direct.paint(surface, photo, { camera: elsewhere, extent: [0, 0, 1, 1] }), error('OPTION', /extent/));
-});
-
 test('what is wrong with a camera is said', async () => {
   /** @param {any} changed */
   const changed = (changed) => () => direct.backProject(image, { ...camera, ...changed });
@@ -139,6 +68,10 @@ test('what is wrong with a camera is said', async () => {
   assert.throws(() => direct.backProject({ ...image, data: [1, 2] }, camera), error('SHAPE', /depth image/));
   const none = { ...image, data: new Float64Array(width * height) };
   await assert.rejects(developable.backProject(none, camera), error('UNSUPPORTED', /no three neighbouring/));
+  const surface = direct.sampleMesh(direct.backProject(image, camera), { view: 'best-fit', resolution: 60 });
+  const square = { width: 10, height: 10, data: new Uint8ClampedArray(400) };
+  assert.throws(() => direct.paint(surface, square), error('UNSUPPORTED', /10 × 10/));
+  assert.throws(() => direct.paint(surface, square, { camera: { ...camera, width, height }, extent: [0, 0, 1, 1] }), error('OPTION', /extent/));
 });
 
 test('the command takes depths with --intrinsics', async () => {

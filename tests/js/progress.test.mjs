@@ -11,9 +11,9 @@ after(() => developable.dispose());
 
 /** A dome, which does not lie flat. @param {number} x @param {number} y */
 const dome = (x, y) => Math.sqrt(195 ** 2 - (x - 90) ** 2 - (y + 90) ** 2);
-const surface = lattice(208, 180, dome);
+const surface = lattice(150, 130, dome);
 const small = lattice(24, 20, dome);
-const mesh = gridMesh(110, 110, (col, row) => [2 * col, 2 * row, dome(2 * col, -2 * row)]);
+const mesh = gridMesh(70, 70, (col, row) => [3 * col, 3 * row, dome(3 * col, -3 * row)]);
 /** A white page on black, a little bent. */
 const photo = { width: 480, height: 640, data: new Uint8Array(4 * 480 * 640).fill(255) };
 const across = (/** @type {number} */ y) => Array.from({ length: 21 }, (_, i) => /** @type {[number, number]} */ ([60 + 18 * i, y + 20 * Math.sin((Math.PI * i) / 20)]));
@@ -30,16 +30,15 @@ const calls = {
 };
 
 for (const [name, call] of Object.entries(calls)) {
-  for (const [kind, api] of /** @type {const} */ ([['direct', direct], ['promise', developable]])) {
-    test(`${name} of the ${kind} API tells how far it is, up to the end, and does the same`, async () => {
+  test(`${name} tells how far it is, up to the end, in both APIs`, async () => {
+    for (const api of [direct, developable]) {
       /** @type {number[]} */
       const told = [];
-      const watched = await call(api, { onProgress: ({ fraction }) => void told.push(fraction) });
+      await call(api, { onProgress: ({ fraction }) => void told.push(fraction) });
       assert.deepEqual(told, told.toSorted((a, b) => a - b), 'it never falls');
       assert.ok(told[0] > 0 && told[0] < 1 && told.indexOf(1) === told.length - 1, `${told}`);
-      if (kind === 'direct') assert.deepEqual(watched, call(direct, {}));
-    });
-  }
+    }
+  });
 }
 
 test('what the function throws, the call throws, and the next one works', async () => {
@@ -49,7 +48,8 @@ test('what the function throws, the call throws, and the next one works', async 
   await assert.rejects(developable.pattern(small, { onProgress }), error);
   await assert.rejects(developable.pattern(small, { onProgress: async () => { throw error; } }), error);
   assert.throws(() => direct.pattern(small, { onProgress: /** @type {any} */ (async () => {}) }), { code: 'OPTION', message: /promise/ });
-  assert.deepEqual(await developable.pattern(small), direct.pattern(small));
+  const watched = await developable.pattern(small, { onProgress() {} });
+  assert.deepEqual(watched, direct.pattern(small), 'who watches changes nothing');
 });
 
 test('a call that is told of can be aborted', async () => {

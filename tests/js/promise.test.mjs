@@ -8,7 +8,7 @@ import { pathToFileURL } from 'node:url';
 import { yieldToEventLoop } from '../../pkg/event-loop.js';
 import * as developable from '../../pkg/index.js';
 import { filesWasmFile, pkg, wasmFile } from './support/paths.mjs';
-import { cylinder, deviation, endless, image, lattice, noisy, plane } from './support/shapes.mjs';
+import { deviation, endless, image, lattice, noisy, plane } from './support/shapes.mjs';
 import { Listener, rest } from './support/waiting.mjs';
 
 const { DevelopableWorker } = developable;

@@ -13,27 +13,6 @@ function solved(solver) {
   return solver.surface();
 }
 
-test('a restart ends where a fresh start ends, sooner', () => {
-  const solver = new direct.Solver(rough, { lambda: 1e6 });
-  solved(solver);
-  let [warm, cold] = [0, 0];
-  for (const lambda of [1.3e6, 1e6, 8e5]) {
-    solver.restart({ lambda, gap: 0.005 });
-    const again = solved(solver);
-    const fresh = direct.fit(rough, { lambda, gap: 0.005 });
-    assert.deepEqual([again.report.stopReason, again.report.lambda], ['gap', lambda]);
-    const { objective } = fresh.report;
-    assert.ok(Math.abs(again.report.objective - objective) <= 0.006 * objective);
-    // The bounds are of the same optimum.
-    assert.ok(again.report.dualBound <= objective && fresh.report.dualBound <= again.report.objective);
-    assert.equal(again.image?.data.length, 5600);
-    warm += again.report.iterations;
-    cold += fresh.report.iterations;
-  }
-  assert.ok(warm < cold, `${warm} against ${cold} iterations`);
-  solver.dispose();
-});
-
 test('what is left out has its default again', () => {
   const solver = new direct.Solver(rough, { lambda: 'small', energy: 'frobenius', gap: 0.1 });
   solved(solver);
@@ -99,16 +78,3 @@ test('an error leaves the solver as it was', () => {
   assert.throws(() => solver.restartWith(rough), { code: 'DISPOSED' });
 });
 
-test('a restart in the midst of a solve, and after a cancelled one', () => {
-  const solver = new direct.Solver(rough, { gap: 1e-9, maxIterations: 1e8 });
-  solver.advance(5);
-  solver.restart({ lambda: 3e6 });
-  assert.equal(solved(solver).report.lambda, 3e6);
-  solver.restart({ gap: 1e-9, maxIterations: 1e8 });
-  solver.advance(5);
-  solver.cancel();
-  assert.equal(solver.surface().report.stopReason, 'cancelled');
-  solver.restart();
-  assert.equal(solved(solver).report.stopReason, 'gap');
-  solver.dispose();
-});

@@ -142,9 +142,6 @@ test('our own reader reads them, too', () => {
 });
 
 test('the promise API writes the same', async () => {
-  assert.deepEqual(await developable.writePly(field), files.ply);
-  assert.deepEqual(await developable.writeStl(field), files.stl);
-  assert.deepEqual(await developable.writeGlb(field), files.glb);
   const texture = await readFile(new URL('../data/grey.jpg', import.meta.url));
   const file = direct.writeGlb(field, { texture });
   assert.deepEqual(await developable.writeGlb(field, { texture: new Blob([new Uint8Array(texture)]) }), file);

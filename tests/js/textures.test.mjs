@@ -60,7 +60,6 @@ test('the colours of a textured mesh, through a solve and into files', async () 
     isSheet(mesh.textures?.[0]);
     const seen = direct.sampleMesh(mesh, { resolution: 40 });
     checkShades(seen);
-    assert.deepEqual(await developable.sampleMesh(mesh, { resolution: 40 }), seen);
     const surface = await developable.fit(seen, { lambda: 'big' });
     assert.deepEqual([surface.colors, surface.uvs, surface.texture], [seen.colors, seen.uvs, seen.texture]);
     isSheet(surface.texture);
@@ -88,7 +87,6 @@ test('several textures, pixels in the place of files, and what has none', async 
   const pixels = direct.readPhoto(png);
   const twice = { ...direct.readMesh(glb), textures: [pixels, png], textureOf: new Int32Array([0, 1, 0]) };
   checkShades(direct.sampleMesh(twice, { resolution: 40 }));
-  checkShades(await developable.sampleMesh(twice, { resolution: 40 }));
 });
 
 test('what is missing or damaged', async () => {
@@ -137,7 +135,6 @@ test('a photo gives an image its colours', async () => {
   // A part of it only.
   const part = direct.paint(surface, photo, { extent: [0, 0, 3, 4.5] });
   assert.ok(Math.max(...part.colors.filter((_, i) => i % 3 === 0)) > 230 / 255 - 1e-6);
-  assert.deepEqual((await developable.paint(surface, photo, { extent: [0, 0, 3, 4.5] })).colors, part.colors);
 });
 
 test('colours of a depth camera, from files of other programs', async () => {
@@ -295,13 +292,11 @@ test('the textures of a mesh are printed on its sheets', async () => {
     const pixel = [...data.subarray(4 * (8 * row + col), 4 * (8 * row + col) + 3)];
     [32 * col, 32 * row, 128].forEach((level, k) => assert.ok(Math.abs(pixel[k] - level) < 20, `${pixel} at ${row}, ${col}`));
   }
-  assert.deepEqual(await developable.pattern(mesh, options), drawing);
 
   const [svg, pdf] = [direct.writeSvg(drawing), direct.writePdf(drawing)].map((bytes) => Buffer.from(bytes).toString('latin1'));
   assert.ok(svg.includes(`data:image/jpeg;base64,${Buffer.from(texture.jpeg).toString('base64')}`));
   assert.match(svg, /<g [^>]*id="picture"/);
   assert.ok(pdf.includes(Buffer.from(texture.jpeg).toString('latin1')));
-  assert.deepEqual(await developable.writeSvg(drawing), direct.writeSvg(drawing));
 
   const { textures, ...bare } = mesh;
   assert.throws(() => direct.pattern(bare, options), { code: 'INPUT', message: /no textures.*leave out `printed`/ });

@@ -43,10 +43,10 @@ test('a worker is replaced after a trap', async () => {
 });
 
 test('where memory is short there is an error that says so, and the next call works', async () => {
-  const input = image(150, 150, noisy(cylinder(150), 1));
+  const input = image(120, 120, noisy(cylinder(120), 1));
   const outcomes = new Set();
   // From too little for the input to enough for all.
-  for (let kib = 256; kib <= 16384; kib = Math.ceil(1.35 * kib)) {
+  for (let kib = 256; kib <= 16384; kib = Math.ceil(1.7 * kib)) {
     const worker = new DevelopableWorker({ wasm: limited(sound, kib) });
     const outcome = await worker.fit(input).then(() => 'done', (error) => {
       assert.match(error.message, /memory/);

@@ -100,23 +100,6 @@ pageTest('by keyboard both surfaces are turned', async (page) => {
   assert.ok(outline >= 1, 'the focus is seen');
 }, { drawn: true });
 
-pageTest('every control has a name, and nothing sticks out at any width', async (page) => {
-  const nameless = await page.evaluate(() =>
-    [...document.querySelectorAll('button, input:not([type="file"]), select, progress, canvas:not([aria-hidden])')]
-      .filter((control) => {
-        const labels = /** @type {HTMLInputElement} */ (control).labels;
-        return !control.getAttribute('aria-label') && !labels?.length && !control.textContent?.trim();
-      })
-      .map((control) => control.outerHTML));
-  assert.deepEqual(nameless, []);
-  for (const width of [360, 768, 1280, 1920]) {
-    await page.setViewportSize({ width, height: 800 });
-    await painted(page);
-    assert.ok(await excess(page) <= 0, `${await excess(page)} pixels at ${width}`);
-    for (const side of ['input', 'result']) assert.ok((await look(page, side)).covered > 0.1, `${side} at ${width}`);
-  }
-}, { drawn: true });
-
 pageTest('every view fits on a phone, light and dark, with the pixels of the device', async (page) => {
   const sizes = await page.locator('canvas:visible').evaluateAll((canvases) =>
     canvases.map((canvas) => [/** @type {HTMLCanvasElement} */ (canvas).width, canvas.clientWidth]));

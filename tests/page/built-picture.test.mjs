@@ -1,10 +1,10 @@
 /** The picture of a pattern put together. */
 import assert from 'node:assert/strict';
 import { obj } from './support/files.mjs';
-import { doorTest, openWhole, saveAs } from './support/page.mjs';
+import { openWhole, saveAs, sharedDoorTest } from './support/page.mjs';
 import { parsePng } from './support/photos.mjs';
 
-doorTest('the picture of a finished tower is upright, shaded, at an angle and numbered', async (page) => {
+sharedDoorTest('the picture of a finished tower is upright, shaded, at an angle and numbered, and a model of it moves', async (page) => {
   // OBJ files take y for the axis that points upwards.
   const points = Array.from({ length: 8 }, (_, i) => /** @type {[number, number, number]} */ ([20, 60, 20].map((side, k) => side * ((i >> k) & 1))));
   const triangles = /** @type {[number, number, number][]} */ ([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]].flatMap(([a, b, c, d]) => [[a, b, c], [a, c, d]]));
@@ -28,4 +28,9 @@ doorTest('the picture of a finished tower is upright, shaded, at an angle and nu
   assert.ok([...tones.values()].filter((count) => count > 0.03 * wide * high).length >= 3, `${[...tones].filter(([, count]) => count > 1000)}`);
   assert.ok(black.above > 100, 'a number');
   assert.ok(black.below > 1000, 'how it is joined');
+
+  await page.locator('#end-sheets').click();
+  const { bytes } = await saveAs(page, 'GLB');
+  const { animations } = JSON.parse(bytes.toString('utf8', 20, 20 + bytes.readUInt32LE(12)));
+  assert.equal(animations[0].name, 'Assembly');
 }, { drawn: true });

@@ -2,7 +2,6 @@
 import assert from 'node:assert/strict';
 import { read, writeImage } from '../../pkg/index.js';
 import { grid, npy, obj, parseNpy, png16 } from './support/files.mjs';
-import { parsed } from './support/numbers.mjs';
 import { choose, doorTest, drop, dropAll, enterPages, open, reported, runBy, save, settled, sharedDoorTest, sharedTest } from './support/page.mjs';
 import { dottedPhoto } from './support/photos.mjs';
 

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { grid, npy, parseNpy } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { doorTest, drop, open, pageTest, reported, runBy, save, typeLambda } from './support/page.mjs';
+import { doorTest, drop, open, reported, runBy, save, sharedDoorTest, sharedTest, typeLambda } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -21,7 +21,7 @@ const names = (page) => page.locator('#report-table tr:not(.group) th').allInner
 /** @param {number[]} found @param {number[]} expected */
 const deviation = (found, expected) => Math.max(...found.map((value, i) => Math.abs(value - expected[i])));
 
-doorTest('where it jumps it is torn', async (page) => {
+sharedDoorTest('where it jumps it is torn', async (page) => {
   const step = grid(WIDTH, HEIGHT, (col, row) => slope(col, row) + (col > 20 ? 15 : 0));
   await open(page, 'step.npy', npy(WIDTH, step));
   // So small that the jump is rounded where nothing tears.
@@ -64,7 +64,7 @@ doorTest('reading a file can be done without', async (page) => {
   assert.equal(await page.locator('#notice').isVisible(), false);
 });
 
-pageTest('another energy is told of', async (page) => {
+sharedTest('another energy is told of', async (page) => {
   await runBy(page, () => page.locator('#size').selectOption('100'));
   await runBy(page, () => page.locator('#energy').selectOption('frobenius'));
   assert.ok((await names(page)).includes('Bending') && !(await names(page)).includes('Nuclear norms'));
@@ -73,7 +73,7 @@ pageTest('another energy is told of', async (page) => {
   assert.ok((await names(page)).includes('Nuclear norms'));
 });
 
-pageTest('the slider restarts the solver while it is dragged', async (page) => {
+sharedTest('the slider restarts the solver while it is dragged', async (page) => {
   await runBy(page, () => page.locator('#size').selectOption('100'));
   const cold = parsed(await reported(page, 'Iterations'));
   // To the middle of the slider.
@@ -90,7 +90,7 @@ pageTest('the slider restarts the solver while it is dragged', async (page) => {
   await page.mouse.up();
 });
 
-pageTest('λ by the noise, and what came of it, beside the slider', async (page) => {
+sharedTest('λ by the noise, and what came of it, beside the slider', async (page) => {
   const button = page.locator('#lambda-auto');
   // By itself.
   assert.equal(await button.getAttribute('aria-pressed'), 'true');

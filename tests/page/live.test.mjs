@@ -1,10 +1,13 @@
 /** While λ is dragged. */
 import assert from 'node:assert/strict';
+import { grid, npy } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, pageTest, reported, runBy, settled, typeLambda } from './support/page.mjs';
+import { choose, doorTest, open, pageTest, reported, runBy, settled, typeLambda } from './support/page.mjs';
+
+/** Pixels of the side of the smallest image that is a large one. */
+const LARGE = 500;
 
 pageTest('while λ is dragged, pictures follow, and the last wish is certified', async (page) => {
-  await runBy(page, () => page.locator('#size').selectOption('400'));
   // What makes pictures is started by the first λ that is chosen.
   await runBy(page, () => typeLambda(page, '1e6'));
   const { events, wishes } = await page.evaluate(async () => {
@@ -84,16 +87,17 @@ pageTest('what grows with the size of a result is done in workers, and a picture
   assert.equal(calls('surface/triangles.js', 'fillTriangles'), 0);
 }, { start: '#example=roof&size=200', sources: true });
 
-pageTest('the solver of a large input gives its memory back when it rests, and comes again', async (page) => {
-  await page.evaluate(() => {
+doorTest('the solver of a large input gives its memory back when it rests, comes again, and ends even where its worker does not listen', async (page) => {
+  await page.evaluate((bytes) => {
     const { postMessage, terminate } = Worker.prototype;
     /** Those that were handed a large image. @type {WeakSet<Worker>} */
     const large = new WeakSet();
     const seen = { opened: 0, ended: 0 };
     Object.assign(window, { seen });
     Worker.prototype.postMessage = function (/** @type {any} */ message, /** @type {any} */ transfer) {
-      const bytes = Array.isArray(transfer) ? transfer.reduce((sum, { byteLength = 0 }) => sum + byteLength, 0) : 0;
-      if (bytes >= 8 * 700 ** 2 && String(message.path) === 'open') {
+      if (String(message?.path) === 'stop') return;
+      const sent = Array.isArray(transfer) ? transfer.reduce((sum, { byteLength = 0 }) => sum + byteLength, 0) : 0;
+      if (sent >= bytes && String(message.path) === 'open') {
         large.add(this);
         seen.opened++;
       }
@@ -103,12 +107,23 @@ pageTest('the solver of a large input gives its memory back when it rests, and c
       if (large.delete(this)) seen.ended++;
       terminate.call(this);
     };
-  });
+  }, 8 * LARGE ** 2);
   const seen = () => page.evaluate(() => /** @type {any} */ (window).seen);
-  await runBy(page, () => page.locator('#size').selectOption('700'));
+  await open(page, 'fold.npy', npy(LARGE, grid(LARGE, LARGE, (col) => 0.4 * Math.abs(col - LARGE / 2))));
   assert.deepEqual(await seen(), { opened: 1, ended: 0 });
   await page.waitForFunction(() => /** @type {any} */ (window).seen.ended === 1);
   await runBy(page, () => typeLambda(page, '1e5'));
   assert.equal((await seen()).opened, 2);
   assert.match(await page.locator('#certificate').innerText(), /^Proven/);
+  // Cancelled on a coarse lattice, what was there stays.
+  const caption = await page.locator('#result-caption').innerText();
+  await page.locator('#gap').evaluate((/** @type {HTMLSelectElement} */ select) => {
+    select.selectedIndex = select.options.length - 1;
+    select.dispatchEvent(new Event('change', { bubbles: true }));
+  });
+  await page.locator('#page[data-phase="running"]').waitFor();
+  await page.evaluate(() => /** @type {HTMLButtonElement} */ (document.querySelector('#running-cancel')).click());
+  await settled(page);
+  assert.match(await page.locator('#verdict').innerText(), /not solved/);
+  assert.equal(await page.locator('#result-caption').innerText(), caption);
 });

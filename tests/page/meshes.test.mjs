@@ -1,7 +1,7 @@
 /** Meshes and point clouds, seen from a direction of one's choice; files with several arrays. */
 import assert from 'node:assert/strict';
 import { grid, npy, npz, obj, parseNpy, ply } from './support/files.mjs';
-import { choose, doorTest, drop, look, open, openFromOneSide, pageTest, runBy, save, settled } from './support/page.mjs';
+import { choose, drop, open, openFromOneSide, runBy, save, settled, sharedDoorTest, sharedTest } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('./support/files.mjs').Mesh} Mesh */
@@ -53,7 +53,7 @@ function assertHeights(points, expected, tolerance) {
 }
 
 for (const { format, bytes } of [{ format: 'OBJ', bytes: obj(wedge) }, { format: 'PLY', bytes: ply(wedge) }]) {
-  doorTest(`a dropped ${format} is turned, and its heights are those seen from there`, async (page) => {
+  sharedDoorTest(`a dropped ${format} is turned, and its heights are those seen from there`, async (page) => {
     await openFromOneSide(page, `wedge.${format.toLowerCase()}`, bytes);
     assert.match(await page.locator('#mesh-name').innerText(), new RegExp(`wedge \\(${format}\\)`));
     assert.match(await page.locator('#mesh-span').innerText(), /^3 × 2 × 2\.9, 12 triangles\.$/);
@@ -74,7 +74,7 @@ for (const { format, bytes } of [{ format: 'OBJ', bytes: obj(wedge) }, { format:
   });
 }
 
-doorTest('a point cloud is solved as well, and its result is written as a mesh', async (page) => {
+sharedDoorTest('a point cloud is solved as well, and its result is written as a mesh', async (page) => {
   const points = grid(60, 40, (col, row) => row * 60 + col)
     .map((i) => /** @type {const} */ ([(i % 60) / 20, Math.floor(i / 60) / 20, top((i % 60) / 20, Math.floor(i / 60) / 20)]));
   await open(page, 'cloud.ply', ply({ points, triangles: [] }));
@@ -89,7 +89,7 @@ doorTest('a point cloud is solved as well, and its result is written as a mesh',
   }
 });
 
-doorTest('points in text are a point cloud where they lie on no grid', async (page) => {
+sharedDoorTest('points in text are a point cloud where they lie on no grid', async (page) => {
   const line = (/** @type {number} */ i) => {
     const [x, y] = [((37 * i) % 101) / 35 + 0.005 * Math.sin(i), ((i * i) % 97) / 50 + 0.005 * Math.cos(i)];
     return `${x} ${y} ${top(x, y)}\n`;
@@ -99,7 +99,7 @@ doorTest('points in text are a point cloud where they lie on no grid', async (pa
   assert.match(await page.locator('#mesh-span').innerText(), /2.400 points/);
 });
 
-pageTest('a broken mesh gets a message, and what was there stays', async (page) => {
+sharedTest('a broken mesh gets a message, and what was there stays', async (page) => {
   const shown = () => Promise.all(['#verdict', '#input-caption', '#result-caption'].map((one) => page.locator(one).innerText()));
   const before = await shown();
   for (const [name, bytes] of /** @type {const} */ ([
@@ -114,7 +114,7 @@ pageTest('a broken mesh gets a message, and what was there stays', async (page) 
   }
 });
 
-doorTest('of an NPZ with several arrays one is chosen', async (page) => {
+sharedDoorTest('of an NPZ with several arrays one is chosen', async (page) => {
   const low = grid(30, 20, (col) => 0.1 * col);
   const high = grid(16, 12, (_, row) => 2 * row);
   const rows = npy(5, [1, 2, 3, 4, 5]);
@@ -130,7 +130,7 @@ doorTest('of an NPZ with several arrays one is chosen', async (page) => {
   assert.equal(await arrays.isVisible(), false);
 });
 
-doorTest('depths from a camera are put where it has seen them', async (page) => {
+sharedDoorTest('depths from a camera are put where it has seen them', async (page) => {
   // A plane that recedes to the right: its depths are not linear over the image.
   const [width, height, focus, slope] = [80, 60, 70, 0.6];
   const depths = grid(width, height, (col) => 2000 / (1 - (slope * (col - (width - 1) / 2)) / focus));

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { parsed } from './support/numbers.mjs';
-import { choose, downloaded, look, pageTest, reported, runBy, settled, typeLambda } from './support/page.mjs';
+import { choose, downloaded, look, pageTest, reported, runBy, settled, sharedTest, typeLambda } from './support/page.mjs';
 import { parsePng } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -19,7 +19,7 @@ async function startLongRun(page) {
   await page.locator('#running span', { hasText: 'iterations' }).waitFor();
 }
 
-pageTest('the first visit shows a solved example with its certificate', async (page) => {
+sharedTest('the first visit shows a solved example with its certificate', async (page) => {
   const target = Number(await page.getByLabel('Proven within').inputValue());
   const gap = parsed(await reported(page, 'Gap'));
   assert.ok(gap > 0 && gap <= 100 * target, `gap ${gap} %`);
@@ -82,7 +82,7 @@ pageTest('the first visit shows a solved example with its certificate', async (p
   assert.equal(print.toString('latin1').match(/\/Type\s*\/Page\b/g)?.length, 1, 'printed, it is one page');
 }, { start: '#example=roof', drawn: true });
 
-pageTest('examples are smoother than their input, and closer to the truth', async (page) => {
+sharedTest('examples are smoother than their input, and closer to the truth', async (page) => {
   for (const name of ['roof', 'house', 'cone']) {
     if ((await page.locator('#example').inputValue()) !== name) await runBy(page, () => page.locator('#example').selectOption(name));
     const [input, result] = [await look(page, 'input'), await look(page, 'result')];
@@ -113,32 +113,9 @@ pageTest('progress moves the bar', async (page) => {
   assert.ok(values.at(-1) > 0.9, `${values.at(-1)}`);
   const far = await page.evaluate(() => /** @type {any} */ (window).far);
   assert.ok(Math.max(...far) < 0.9, `the bar stood at ${far} while the gap was large`);
-}, { start: '#example=roof' });
+}, { start: '#example=roof&size=200' });
 
-pageTest('a large run ends even where its worker does not listen, and what was there stays', async (page) => {
-  await runBy(page, () => page.locator('#size').selectOption('700'));
-  const caption = await page.locator('#result-caption').innerText();
-  const running = page.locator('#page[data-phase="running"]');
-  await page.evaluate(() => {
-    const own = Worker.prototype.postMessage;
-    Worker.prototype.postMessage = function (/** @type {any} */ message, /** @type {any} */ transfer) {
-      if (String(message?.path) !== 'stop') own.call(this, message, transfer);
-    };
-  });
-  await page.locator('#gap').evaluate((/** @type {HTMLSelectElement} */ select) => {
-    select.selectedIndex = select.options.length - 1;
-    select.dispatchEvent(new Event('change', { bubbles: true }));
-  });
-  await running.waitFor();
-  await page.evaluate(() => /** @type {HTMLButtonElement} */ (document.querySelector('#running-cancel')).click());
-  await settled(page);
-  assert.match(await page.locator('#verdict').innerText(), /not solved/);
-  assert.equal(await page.locator('#result-caption').innerText(), caption);
-  await runBy(page, () => typeLambda(page, '1e6'));
-  assert.match(await page.locator('#certificate').innerText(), /^Proven/);
-});
-
-pageTest('cancel is heard at once and keeps the best surface, marked', async (page) => {
+sharedTest('cancel is heard at once and keeps the best surface, marked', async (page) => {
   await startLongRun(page);
   const word = await page.evaluate(() => {
     /** @type {HTMLButtonElement} */ (document.querySelector('#running-cancel')).click();
@@ -154,7 +131,7 @@ pageTest('cancel is heard at once and keeps the best surface, marked', async (pa
   assert.ok(await page.locator('#end-file').isEnabled(), 'it can be saved');
 });
 
-pageTest('another λ during a run replaces the run', async (page) => {
+sharedTest('another λ during a run replaces the run', async (page) => {
   await startLongRun(page);
   await typeLambda(page, '1e7');
   await page.getByLabel('Proven within').selectOption('0.1');
@@ -164,7 +141,7 @@ pageTest('another λ during a run replaces the run', async (page) => {
   assert.equal(await page.locator('#result-mark').isVisible(), false);
 });
 
-pageTest('λ can be typed, and a wrong one is refused in place', async (page) => {
+sharedTest('λ can be typed, and a wrong one is refused in place', async (page) => {
   const field = page.getByLabel('λ as a number');
   await runBy(page, async () => {
     await field.fill('2.5e5');
@@ -183,7 +160,7 @@ pageTest('λ can be typed, and a wrong one is refused in place', async (page) =>
   assert.equal(await page.locator('#verdict').innerText(), before);
 });
 
-pageTest('a λ that is no number is said at its field, a decimal comma or a power is one, and nothing typed is the automatic one', async (page) => {
+sharedTest('a λ that is no number is said at its field, a decimal comma or a power is one, and nothing typed is the automatic one', async (page) => {
   const [field, wrong] = [page.getByLabel('λ as a number'), page.locator('#lambda-value-wrong')];
   for (const typed of ['abc', '0', '1e30']) {
     await field.fill(typed);

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { dispose, readMesh } from '../../pkg/index.js';
 import { obj } from './support/files.mjs';
-import { drop, pageTest, saveAs } from './support/page.mjs';
+import { drop, saveAs, sharedTest } from './support/page.mjs';
 
 /**
  * The triangles of a binary STL: its edges that have no opposite one, its volume and its sides.
@@ -25,7 +25,7 @@ function measure(bytes) {
   return { open: [...edges.values()].filter((count) => count > 0).length, volume, sides: high.map((value, k) => value - low[k]), lowest: low[2] };
 }
 
-pageTest('heights on a base are a solid, as STL and as a 3MF that can be opened', async (page) => {
+sharedTest('heights on a base are a solid, as STL and as a 3MF that can be opened', async (page) => {
   await page.locator('#end-file').click();
   await page.locator('#save-formats input[value="solid.stl"]').check();
   await page.getByLabel('Longest side when printed, mm').fill('90');
@@ -44,7 +44,7 @@ pageTest('heights on a base are a solid, as STL and as a 3MF that can be opened'
   dispose();
 });
 
-pageTest('an open mesh becomes a shell, and a caution is said', async (page) => {
+sharedTest('an open mesh becomes a shell, and a caution is said', async (page) => {
   // A tent of two faces, folded by 90°.
   const [points, triangles] = [/** @type {[number, number, number][]} */ ([]), /** @type {[number, number, number][]} */ ([])];
   for (let i = 0; i < 9; i++) {

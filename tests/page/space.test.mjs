@@ -4,7 +4,7 @@ import { noisyBox } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
 import { parsePng } from './support/photos.mjs';
-import { choose, doorTest, look, openWhole, pageTest, painted } from './support/page.mjs';
+import { choose, doorTest, look, openWhole, pageTest, painted, sharedTest } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -43,7 +43,7 @@ function correlation(a, b) {
   return product(a, ma, b, mb) / Math.sqrt(product(a, ma, a, ma) * product(b, mb, b, mb));
 }
 
-pageTest('a card that is seen from above is seen so when an address opens it', async (page) => {
+sharedTest('a card that is seen from above is seen so when an address opens it', async (page) => {
   const first = await brightness(page, '#space-canvas');
   await page.getByRole('button', { name: 'From above' }).click();
   const alike = correlation(first, await brightness(page, '#space-canvas'));
@@ -66,7 +66,7 @@ doorTest('the last view that is asked for before the surface can be drawn is the
   assert.ok(alike > 0.95, `${alike}`);
 }, { drawn: true });
 
-pageTest('in space the surface is turned and divided', async (page) => {
+sharedTest('in space the surface is turned and divided', async (page) => {
   const divider = page.getByRole('slider', { name: 'Divider between input and result' });
 
   await page.getByRole('button', { name: 'From above' }).click();
@@ -132,7 +132,7 @@ pageTest('without WebGL that is said, and the rest works', async (page) => {
   await page.locator('#result-picture').waitFor();
 });
 
-pageTest('an answer that takes long can be done without, and asked for again; then it lies flat', async (page) => {
+sharedTest('an answer that takes long can be done without, and asked for again; then it lies flat', async (page) => {
   // In one go, for the answer may be there in a moment.
   const cancelled = await page.evaluate(() => {
     const radio = /** @type {HTMLInputElement} */ (document.querySelector('input[name="view"][value="sheet"]'));

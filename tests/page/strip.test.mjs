@@ -1,9 +1,9 @@
 /** The same input at five λ. */
 import assert from 'node:assert/strict';
 import { parsed } from './support/numbers.mjs';
-import { look, pageTest, reported, runBy } from './support/page.mjs';
+import { look, reported, runBy, sharedTest } from './support/page.mjs';
 
-pageTest('five λ side by side are smoother the smaller λ is, and a click takes one', async (page) => {
+sharedTest('five λ side by side are smoother the smaller λ is, and a click takes one', async (page) => {
   await runBy(page, () => page.locator('#size').selectOption('100'));
   const open = page.getByRole('button', { name: 'Compare five values' });
   await open.click();

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { unzipSync } from 'fflate';
 import { meets } from '../js/support/phone.mjs';
 import { grid, npy, parseNpy, png16 } from './support/files.mjs';
-import { choose, doorTest, downloaded, drop, dropAll, look, open, pageTest, painted, runBy, settled } from './support/page.mjs';
+import { choose, downloaded, drop, dropAll, look, open, painted, runBy, settled, sharedDoorTest, sharedTest } from './support/page.mjs';
 import { camera, dots, dottedPhoto, png } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -31,14 +31,14 @@ async function dotsOnSurface(page) {
   return (await look(page, 'result')).roughness > 1;
 }
 
-doorTest('depths, photo and camera in one drop are a surface with the photo on it', async (page) => {
+sharedDoorTest('depths, photo and camera in one drop are a surface with the photo on it', async (page) => {
   await runBy(page, () => dropAll(page, { 'IMG_1.png': photo, 'depth.npy': npy(256, depths(0)), 'camera.xml': calibration, 'notes.md': Buffer.from('a page') }));
   await page.getByRole('alert').filter({ hasText: 'Left out: “notes.md”. With depths go one photo' }).waitFor();
   assert.equal(await page.locator('#mesh-name').innerText(), 'depth (depths)');
   assert.ok(await dotsOnSurface(page));
 }, { drawn: true });
 
-doorTest('the camera is assumed until its file is opened', async (page) => {
+sharedDoorTest('the camera is assumed until its file is opened', async (page) => {
   await dropAll(page, { 'depth.png': png16(256, depths(0).map((depth) => Math.round(10000 * depth))), 'IMG_1.png': photo });
   // Built by a guess, with the photo on it at once.
   await page.locator('#guessed', { hasText: 'Assumed: 60° field of view' }).waitFor();
@@ -56,7 +56,7 @@ doorTest('the camera is assumed until its file is opened', async (page) => {
   assert.equal(await page.locator('#guessed').isVisible(), false, 'nothing is guessed any more');
 }, { drawn: true });
 
-doorTest('a camera that cannot belong to the image is refused', async (page) => {
+sharedDoorTest('a camera that cannot belong to the image is refused', async (page) => {
   await open(page, 'depth.npy', npy(256, depths(0)));
   // A surface is built by an assumed camera; the end of that would hide a message about another file.
   await page.locator('#verdict').filter({ hasText: 'From this side' }).waitFor();
@@ -67,7 +67,7 @@ doorTest('a camera that cannot belong to the image is refused', async (page) => 
   await page.getByRole('alert').filter({ hasText: 'far from the middle' }).waitFor();
 });
 
-pageTest('a scan in OBJ brings its material and texture along', async (page) => {
+sharedTest('a scan in OBJ brings its material and texture along', async (page) => {
   // The page of the photo, seen from above: its texture is the flat page.
   const [n, m, radius] = [40, 12, 0.12];
   const lines = ['mtllib page.mtl', 'usemtl paper'];
@@ -95,7 +95,7 @@ pageTest('a scan in OBJ brings its material and texture along', async (page) => 
   assert.ok(await dotsOnSurface(page));
 }, { drawn: true });
 
-doorTest('heights in another unit, and levels that are guessed, are asked about', async (page) => {
+sharedDoorTest('heights in another unit, and levels that are guessed, are asked about', async (page) => {
   await drop(page, 'holiday.png', coloured);
   await page.locator('#page-caption', { hasText: 'holiday' }).waitFor();
   await page.getByRole('alert').getByRole('button', { name: 'Heights instead?' }).click();
@@ -111,7 +111,7 @@ doorTest('heights in another unit, and levels that are guessed, are asked about'
   assert.match(await assumed.innerText(), /from black to white is a quarter of the longer side/);
 });
 
-doorTest('several scans are cleaned into one ZIP, and what fails is left out with its reason', async (page) => {
+sharedDoorTest('several scans are cleaned into one ZIP, and what fails is left out with its reason', async (page) => {
   const [small, large] = [npy(40, grid(40, 30, (col, row) => 0.1 * Math.abs(col - 20) + 0.02 * row)), npy(60, grid(60, 40, (col) => 0.1 * col))];
   await dropAll(page, { 'b.npy': small, 'a.npy': large, 'broken.npy': Buffer.from('no numbers') });
   await page.getByRole('button', { name: 'Clean all 3 into one ZIP…' }).click();

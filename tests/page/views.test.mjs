@@ -1,9 +1,8 @@
 /** Views of the result, against what is known of the examples' shapes. */
 import assert from 'node:assert/strict';
-import { grid, npy, png16 } from './support/files.mjs';
+import { grid, npy } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, downloaded, look, open, pageTest, painted, runBy, save, saveAs, settled, sharedDoorTest, sharedTest } from './support/page.mjs';
-import { parsePng } from './support/photos.mjs';
+import { choose, downloaded, look, open, pageTest, painted, runBy, saveAs, settled, sharedDoorTest, sharedTest } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -80,15 +79,6 @@ sharedTest('curvatures of the cylinder: one bend as the radius says, none of the
   assert.equal(await page.locator('#analysis').isVisible(), false);
 }, { drawn: true });
 
-sharedTest('noise has curvature everywhere, the result next to none, on one scale', async (page) => {
-  await example(page, 'cylinder');
-  await view(page, 'Curvature K');
-  const [before, after] = (await told(page, 'Median |K|')).split('→').map(parsed);
-  assert.ok(after < before / 1000, `${before} → ${after}`);
-  const [all, few] = (await told(page, '|K| above 1')).split('→').map(parsed);
-  assert.ok(all > 95 && few < 20, `${all} % → ${few} %`);
-});
-
 sharedDoorTest('curvatures are in the units of the file', async (page) => {
   // A cap of a sphere, whose curvatures are the same everywhere, in pixels that are not of side 1.
   const [radius, side, pixels] = [40, 0.5, 61];
@@ -109,34 +99,6 @@ sharedDoorTest('curvatures are in the units of the file', async (page) => {
   assert.ok(bend * radius > 0.7 && bend * radius < 1.5, `${bend}`);
 });
 
-/** Heights of the roof's parts: a vault along each axis, and a tower. */
-const arc = (/** @type {number} */ offset, /** @type {number} */ radius) =>
-  Math.sqrt(radius ** 2 - offset ** 2) - Math.sqrt(radius ** 2 - 0.25);
-/** @type {((x: number, y: number) => number)[]} */
-const parts = [(_, y) => arc(y, 0.7), (x) => arc(x, 0.65), (x, y) => 0.45 - 1.3 * Math.hypot(x, y)];
-
-sharedTest('the roof has the patches that it was made of, with their areas', async (page) => {
-  await example(page, 'roof', { noise: '0' });
-  await view(page, 'Patches');
-  assert.equal(await told(page, 'Patches'), '5', 'a tower, and two vaults in two pieces each');
-  assert.equal(await told(page, 'Creases'), '8');
-  // By the surface's area element over a fine grid.
-  const areas = [0, 0, 0];
-  const [n, step] = [500, 1e-6];
-  for (const [x, y] of points(n)) {
-    const heights = parts.map((part) => part(x, y));
-    const top = heights.indexOf(Math.max(...heights));
-    const slopes = [parts[top](x + step, y) - heights[top], parts[top](x, y + step) - heights[top]].map((d) => d / step);
-    areas[top] += Math.hypot(1, ...slopes) / n ** 2;
-  }
-  const expected = [areas[0] / 2, areas[0] / 2, areas[1] / 2, areas[1] / 2, areas[2]].sort((a, b) => b - a);
-  const total = expected.reduce((sum, area) => sum + area);
-  assert.ok(Math.abs(parsed(await told(page, 'Area')) / total - 1) < 0.05);
-  const found = (await page.locator('#about-view .key').allInnerTexts()).map((text) => parsed(text.split(':')[1]) / 100);
-  assert.equal(found.length, 5);
-  found.forEach((share, i) => assert.ok(Math.abs((share * total) / expected[i] - 1) < 0.08, `${found} against ${expected}`));
-});
-
 sharedTest('rulings are drawn over the result only', async (page) => {
   await example(page, 'cylinder', { noise: '0' });
   const plain = [await look(page, 'input'), await look(page, 'result')].map(({ hash }) => hash);
@@ -149,54 +111,6 @@ sharedTest('rulings are drawn over the result only', async (page) => {
   const longest = parsed(await told(page, 'Longest'));
   assert.ok(longest > 0.9 && longest < 1 / COS + 0.01, `${longest}`);
 }, { drawn: true });
-
-sharedTest('the cylinder laid flat is as large as it is bent', async (page) => {
-  await example(page, 'cylinder', { noise: '0' });
-  // Without the shrinking of curvature that comes with a smaller λ.
-  await runBy(page, async () => {
-    await page.getByLabel('λ as a number').fill('1e9');
-    await page.getByLabel('λ as a number').press('Tab');
-  });
-  await view(page, 'Laid flat');
-  // Flat places of the border's points, turned as little as possible from where they are seen.
-  const along = (/** @type {number[]} */ [x, y]) => COS * x + SIN * y;
-  const flat = (/** @type {number[]} */ point) => {
-    const [s, t] = [along(point), RADIUS * Math.asin(across(point) / RADIUS)];
-    return [COS * s - SIN * t, SIN * s + COS * t];
-  };
-  let [dot, cross] = [0, 0];
-  for (const point of points(100)) {
-    const [x, y] = flat(point);
-    dot += x * point[0] + y * point[1];
-    cross += point[0] * y - point[1] * x;
-  }
-  const [c, s] = [dot / Math.hypot(dot, cross), cross / Math.hypot(dot, cross)];
-  // The lattice's vertices lie between the centres of the outermost pixels.
-  const [side, edge] = [1 / 200, 0.5 - 0.5 / 200 + 1e-9];
-  const ends = [Infinity, -Infinity, Infinity, -Infinity];
-  for (let row = 0, y = edge; y > -edge; y = edge - ++row * side * Math.sqrt(0.75)) {
-    for (let col = 0; col <= 200; col++) {
-      const x = (col - 0.5 * (row % 2)) * side - edge;
-      if (Math.abs(x) > edge) continue;
-      const [fx, fy] = flat([x, y]);
-      [c * fx + s * fy, c * fy - s * fx].forEach((at, k) => {
-        ends[2 * k] = Math.min(ends[2 * k], at);
-        ends[2 * k + 1] = Math.max(ends[2 * k + 1], at);
-      });
-    }
-  }
-  const expected = [ends[1] - ends[0], ends[3] - ends[2]];
-  const found = (await told(page, 'Sheet size')).split('×').map(parsed);
-  found.forEach((side, k) => assert.ok(Math.abs(side / expected[k] - 1) < 0.005, `${found} against ${expected}`));
-  assert.match(await page.locator('#about-view .said').innerText(), /^Laid flat/);
-  assert.ok(parsed(await told(page, 'RMS strain')) < 0.1);
-  assert.equal(await told(page, 'Flipped triangles'), '0');
-  assert.equal(await told(page, 'Overlaps'), 'none');
-  assert.ok((await look(page, '#result-picture')).covered > 0.2);
-    assert.match(await page.locator('#result-picture').getAttribute('aria-label') ?? '', /laid flat/);
-  await view(page, 'Shaded');
-  assert.equal(await page.locator('#result-picture').isVisible(), false);
-});
 
 sharedTest('what cannot be laid flat whole is laid flat in pieces, which are saved as sheets to cut out', async (page) => {
   await example(page, 'roof', { size: '100' });
@@ -260,35 +174,6 @@ sharedTest('what cannot be laid flat whole is laid flat in pieces, which are sav
   assert.equal(await page.locator('#cutting').isVisible(), false);
   assert.match((await saveAs(page, 'DXF')).bytes.toString(), /SECTION/);
 });
-
-sharedTest('how sheets are put together is saved as a numbered picture and as a model that moves', async (page) => {
-  await example(page, 'roof', { size: '100' });
-  const offered = async () => {
-    await page.locator('#end-sheets').click();
-    await page.locator('.preview[aria-busy="false"] img').waitFor();
-    return parsed(await page.locator('.sheets-options .said').innerText());
-  };
-  const sheets = await offered();
-  assert.ok(sheets > 1);
-  const { width, height, data } = parsePng((await saveAs(page, 'PNG')).bytes);
-  assert.equal(Math.max(width, height), 2000);
-  // Every sheet has a colour of its own, darker where it is turned from the light.
-  const counts = new Map();
-  for (let i = 0; i < data.length; i += 4) {
-    const most = Math.max(data[i], data[i + 1], data[i + 2], 1);
-    const hue = [0, 1, 2].map((k) => Math.round((12 * data[i + k]) / most)).join();
-    counts.set(hue, (counts.get(hue) ?? 0) + 1);
-  }
-  const large = [...counts.values()].filter((amount) => amount > 0.02 * width * height);
-  assert.equal(large.length, sheets + 1, 'sheets, and white around them');
-
-  await offered();
-  const { bytes } = await saveAs(page, 'GLB');
-  assert.equal(bytes.toString('latin1', 0, 4), 'glTF');
-  const { animations, meshes } = JSON.parse(bytes.toString('utf8', 20, 20 + bytes.readUInt32LE(12)));
-  assert.equal(animations[0].name, 'Assembly');
-  assert.ok(meshes.length >= sheets, `${meshes.length} meshes of ${sheets} sheets`);
-}, { drawn: true });
 
 sharedTest('another result takes the place of an answer that is still being worked out', async (page) => {
   await choose(page.getByRole('radio', { name: 'Laid flat', exact: true }));

@@ -103,6 +103,10 @@ sharedTest('λ by the noise, and what came of it, beside the slider', async (pag
   assert.ok(Math.abs(field / lambda - 1) < 0.06, `${field} and ${lambda}`);
   assert.ok(parsed(await reported(page, 'Noise, σ')) > 0);
   await runBy(page, () => typeLambda(page, '1e7'));
+  // Undone and done again, from wherever no text is typed.
+  await runBy(page, () => page.locator('#energy').press('Control+z'));
+  assert.equal(await button.getAttribute('aria-pressed'), 'true');
+  await runBy(page, () => page.locator('#energy').press('Control+Shift+z'));
   assert.equal(await button.getAttribute('aria-pressed'), 'false');
   assert.equal(parsed(await reported(page, 'λ')), 1e7);
   assert.equal(await page.locator('#energy').inputValue(), 'huber', 'λ changes λ alone');

@@ -204,7 +204,13 @@ doorTest('photos that are opened together become one PDF, each with its own outl
   await page.locator('#page-caption', { hasText: 'none' }).waitFor();
   assert.equal(await numbers.count(), 3);
   await page.getByRole('button', { name: 'Earlier' }).click();
-  assert.match(await numbers.nth(1).getAttribute('aria-label') ?? '', /^Photo 2, none\.png/);
+  const second = async () => String(await numbers.nth(1).getAttribute('aria-label'));
+  assert.match(await second(), /^Photo 2, none\.png/);
+  // One stack for all that is changed: the order is undone, done again, and so is the removal.
+  await page.keyboard.press('Control+z');
+  assert.match(await second(), /^Photo 2, two\.png/);
+  await page.keyboard.press('Control+Shift+z');
+  assert.match(await second(), /^Photo 2, none\.png/);
   await numbers.nth(0).click();
   await page.locator('#page-caption', { hasText: 'one' }).waitFor();
   await flattened(page);
@@ -228,6 +234,10 @@ doorTest('photos that are opened together become one PDF, each with its own outl
   const [format, light] = [page.getByLabel('Page format'), page.getByLabel('Light on the paper')];
   await format.selectOption('letter');
   await light.selectOption('ink');
+  await flattened(page);
+  await page.keyboard.press('Control+z');
+  assert.deepEqual([await format.inputValue(), await light.inputValue()], ['letter', 'even']);
+  await page.keyboard.press('Control+Shift+z');
   await flattened(page);
   const isStored = () => page.evaluate(() => new Promise((resolve) => {
     const opening = indexedDB.open('developable');

@@ -85,6 +85,11 @@ doorTest('a fold that is clicked in the drawing is cut', async (page) => {
   await page.locator(`.preview[aria-busy="false"] img:not([src="${address}"])`).waitFor();
   const [pair] = parsePairs(await toCut.inputValue()) ?? [];
   assert.deepEqual([pair, await toJoin.inputValue()], [edgeAt(drawing, [x, y])?.pair, '']);
+  // Undone and done again.
+  for (const [keys, wanted] of [['Control+z', ''], ['Control+Shift+z', String(pair?.join('-'))]]) {
+    await workBy(page, '.preview[aria-busy="true"]', () => page.locator('#save-title').press(keys));
+    assert.equal(await toCut.inputValue(), wanted);
+  }
   await page.locator('#save-now:enabled').waitFor();
   // Of a drawing of 5 m, too, one sees the lines.
   await workBy(page, '.preview[aria-busy="true"]', () => page.getByLabel('Longer side when finished').fill('2000'));

@@ -15,12 +15,29 @@ import { openPhoto } from './photo.js';
  * @property {PageState | null} state changes to its outline; null if the photo was not shown yet
  * @property {string} [problem] why it is not in the PDF that was written last
  */
+/** @typedef {{ photos: BookPhoto[], index: number, shown: PageState }} BookState `shown`: of the photo or the example that a session shows */
+
+/** Whether there are the same photos in the same order, with the same outlines and options, as far as these are known. @param {BookState} a @param {BookState} b */
+export function isSameBook(a, b) {
+  return a.photos.length === b.photos.length && (a.photos.length > 0 || editsOf(a.shown) === editsOf(b.shown)) && a.photos.every(({ file, state }, i) => {
+    const other = b.photos[i];
+    return file === other.file && (!state || !other.state || editsOf(state) === editsOf(other.state));
+  });
+}
+
+/** What a user can change of the page in a photo, as a text. @param {PageState} state */
+const editsOf = ({ outline, movedCorners, pageIndex, quarters, known }) => JSON.stringify([outline, [...movedCorners].sort(), pageIndex, quarters, known]);
 
 export class Book {
   /** @type {BookPhoto[]} */
   photos = [];
   /** Index of the photo that is shown. */
   index = 0;
+
+  /** The photos as they are. */
+  get snapshot() {
+    return { photos: this.photos.map((photo) => ({ ...photo })), index: this.index };
+  }
 
   /** Replaces all photos. @param {readonly File[]} files @param {readonly (PageState | null)[]} [states] */
   setFiles(files, states = []) {
@@ -64,7 +81,6 @@ export class Book {
    * Flattens all photos at full resolution, one after the other to save memory. Photos that cannot be flattened are left out,
    * and their `problem` says why.
    * @param {Api} api
-   * @param {PageSession} session session of the photo that is shown
    * @param {PackageWorker} worker
    * @param {readonly [number, number] | null} paper size in millimetres; null for true size
    * @param {boolean} text whether text is recognised
@@ -73,8 +89,7 @@ export class Book {
    * @returns the picture file and the size of each page
    * @throws if no photo can be flattened
    */
-  async flatPages(api, session, worker, paper, text, signal, onPhoto) {
-    this.saveState(session);
+  async flatPages(api, worker, paper, text, signal, onPhoto) {
     const pages = [];
     for (const [i, entry] of this.photos.entries()) {
       onPhoto(i);
@@ -96,9 +111,9 @@ export class Book {
     return pages;
   }
 
-  /** The photos that are known to have no page. @param {PageSession} session session of the photo that is shown */
-  unfound(session) {
-    return this.photos.filter(({ file, state }) => (file === session.photo?.file ? session.unplacedCorners > 0 : state?.traces === null));
+  /** The photos that are known to have no page. */
+  get unfound() {
+    return this.photos.filter(({ state }) => state?.traces === null);
   }
 
   /** The photos that are left out, each with the reason. */

@@ -17,11 +17,11 @@ import { EDGE_NAMES, EDGES, Outline } from './outline.js';
  * @property {boolean} working whether a flat page is being computed, or another photo is being opened
  * @property {{ flat: DewarpedPage, moving: boolean }} flat a new flat page of the reduced photo; `moving`: something is being dragged
  * @property {null} unfound no page was detected, and not all corners were put onto it by hand yet
+ * @property {null} changed the outline, what is known of the page or its turn has changed
  * @property {null} lines the traced edges or the detected lines of text have changed
  * @property {unknown} problem error that prevents a flat page
  */
-/** @typedef {{ outline: Outline, movedCorners: ReadonlySet<number>, pageIndex: number }} Snapshot */
-/** @typedef {Snapshot & { quarters: number, known?: Known, traces: Traces | null }} PageState the outline of the page in a photo, without its pixels; what a browser has kept of it is data without methods. `traces`: null as long as the page is not found */
+/** @typedef {{ outline: Outline, movedCorners: ReadonlySet<number>, pageIndex: number, quarters: number, known?: Known, traces: Traces | null }} PageState the outline of the page in a photo, without its pixels; what a browser has kept of it is data without methods. `traces`: null as long as the page is not found */
 
 /** Maximum distance of a corner outside the photo, in diagonals of the photo: less than what the package accepts. */
 const MAX_CORNER_OUTSIDE_DIAGONALS = 0.045;
@@ -43,6 +43,9 @@ export class PageSession extends Events {
   /** What is known of the page. @type {Known} */
   known = firstKnown();
 
+  /** Whether the outline may differ from the detected one. */
+  isOutlineChanged = false;
+
   /** Number of clockwise quarter turns of the flat page. */
   quarters = 0;
 
@@ -51,10 +54,6 @@ export class PageSession extends Events {
   #flat = null;
   /** The newest request; null if no page is to be flattened. @type {FlattenRequest | null} */
   #latestRequest = null;
-  /** Snapshots from before each change, for undo. @type {Snapshot[]} */
-  #history = [];
-  /** Whether a drag is under way, whose snapshot was saved already. */
-  #dragging = false;
 
   /** @param {Api} api */
   constructor(api) {
@@ -65,11 +64,6 @@ export class PageSession extends Events {
   /** Number of corners that have to be put onto the page by hand, since it was not detected. */
   get unplacedCorners() {
     return this.photo?.outlines.verdict === 'notFound' ? 4 - this.movedCorners.size : 0;
-  }
-
-  /** Whether there is a change to undo. */
-  get canUndo() {
-    return this.#history.length > 0;
   }
 
   /** Names of the edges that the photo hardly shows: those that could not be traced. */
@@ -96,15 +90,22 @@ export class PageSession extends Events {
    */
   show(photo, pages = 1, state = null) {
     this.photo = photo;
-    [this.foundLines, this.#flat, this.#history] = [[], null, []];
-    [this.pageIndex, this.#dragging, this.quarters, this.known] = [0, false, 0, state?.known ?? firstKnown()];
+    [this.foundLines, this.#flat, this.pageIndex, this.quarters, this.known] = [[], null, 0, 0, firstKnown()];
     this.#resetOutline(photo, pages);
-    if (state) {
-      const { outline, movedCorners, pageIndex, quarters } = state;
-      Object.assign(this, { outline: Outline.copyOf(outline), movedCorners, pageIndex, quarters });
-    }
+    if (state) this.#setState(state);
     this.emit('photo', photo);
     this.#update();
+  }
+
+  /** Restores an earlier state of the photo. @param {PageState} state */
+  restore(state) {
+    this.#setState(state);
+    this.#update();
+  }
+
+  /** @param {PageState} state */
+  #setState({ outline, movedCorners, pageIndex, quarters, known = firstKnown() }) {
+    Object.assign(this, { outline: Outline.copyOf(outline), movedCorners, pageIndex, quarters, known, isOutlineChanged: movedCorners.size > 0 });
   }
 
   /** Announces that another photo is being opened, so that the flat page is no longer the one that is wanted; or that none was opened after all. @param {boolean} isOpening */
@@ -115,21 +116,14 @@ export class PageSession extends Events {
   /** Selects another detected page. @param {number} page its index */
   choosePage(page) {
     if (!this.photo?.outlines.pages[page]) return;
-    this.#saveSnapshot();
     this.pageIndex = page;
     this.#resetOutline(this.photo, 1);
     this.#update();
   }
 
-  /** Whether the outline may differ from the detected one. */
-  get isOutlineChanged() {
-    return this.canUndo || this.movedCorners.size > 0;
-  }
-
-  /** Goes back to the detected outline, which can be undone. */
+  /** Goes back to the detected outline. */
   reset() {
     if (!this.photo) return;
-    this.#saveSnapshot();
     this.#resetOutline(this.photo, this.outline.pages);
     this.#update();
   }
@@ -138,16 +132,9 @@ export class PageSession extends Events {
   #resetOutline(photo, pages) {
     const found = photo.outlines.verdict === 'notFound' ? undefined : photo.outlines.pages[this.pageIndex];
     this.outline = found ? Outline.fromDetected(found) : Outline.defaultFor(photo);
-    this.movedCorners = new Set();
+    [this.movedCorners, this.isOutlineChanged] = [new Set(), false];
     this.traces = this.#outlineTraces();
     if (pages === 2) this.#splitAtGutter();
-  }
-
-  /** Saves a snapshot for undo. */
-  #saveSnapshot() {
-    this.#dragging = false;
-    const { outline, movedCorners, pageIndex } = this;
-    this.#history.push({ outline: Outline.copyOf(outline), movedCorners, pageIndex });
   }
 
   /** The state to restore when the photo is shown again. @returns {PageState} */
@@ -156,19 +143,9 @@ export class PageSession extends Events {
     return { outline: Outline.copyOf(outline), movedCorners, pageIndex, quarters, known, traces: this.unplacedCorners > 0 ? null : this.#outlineTraces() };
   }
 
-  /** Undoes the last change of the outline. */
-  undo() {
-    const before = this.#history.pop();
-    if (!before) return;
-    Object.assign(this, before);
-    this.#dragging = false;
-    this.#update();
-  }
-
   /** Divides the page into two at its gutter. */
   addGutter() {
     if (!this.photo) return;
-    this.#saveSnapshot();
     this.#splitAtGutter();
     this.#update();
   }
@@ -180,7 +157,6 @@ export class PageSession extends Events {
 
   /** Joins two pages into one. */
   removeGutter() {
-    this.#saveSnapshot();
     this.outline = this.outline.withoutGutter();
     this.#update();
   }
@@ -188,6 +164,7 @@ export class PageSession extends Events {
   /** Turns the flat page clockwise by a quarter turn. */
   turn() {
     this.quarters = (this.quarters + 1) % 4;
+    this.emit('changed', null);
     if (this.#flat) this.emit('flat', { flat: this.#flat, moving: false });
   }
 
@@ -207,13 +184,12 @@ export class PageSession extends Events {
     const { photo, outline } = this;
     const node = outline.nodeOf(index);
     if (!photo || !node) return;
-    if (!this.#dragging) this.#saveSnapshot();
-    this.#dragging = !ended;
     const outside = MAX_CORNER_OUTSIDE_DIAGONALS * Math.hypot(photo.width, photo.height);
     const within = (/** @type {number} */ at, /** @type {number} */ side) => Math.min(Math.max(at, -outside), side + outside);
     outline.move(index, [within(x, photo.width), within(y, photo.height)]);
     const corner = outline.corners.indexOf(node);
     if (corner >= 0) this.movedCorners = new Set([...this.movedCorners, corner]);
+    this.isOutlineChanged = true;
     this.#update(!ended);
   }
 
@@ -224,18 +200,17 @@ export class PageSession extends Events {
    * @param {boolean} [pulled] whether the new node is being dragged already
    */
   add(edge, place, pulled = false) {
-    this.#saveSnapshot();
-    this.#dragging = pulled;
     const [line, ...others] = this.traces[edge];
     const index = this.outline.add(edge, place, others.length === 0 ? line : []);
-    this.#update();
+    this.isOutlineChanged = true;
+    this.#update(pulled);
     return index;
   }
 
   /** Removes a node. @param {NodeIndex} index */
   remove(index) {
-    this.#saveSnapshot();
     this.outline.remove(index);
+    this.isOutlineChanged = true;
     this.#update();
   }
 
@@ -263,6 +238,7 @@ export class PageSession extends Events {
     this.#latestRequest = this.unplacedCorners > 0 ? null : request;
     this.traces = request.traces;
     this.emit('outline', { outline: this.outline, moving });
+    if (!moving) this.emit('changed', null);
     if (!this.#latestRequest) {
       [this.foundLines, this.#flat] = [[], null];
       this.emit('unfound', null);

@@ -30,11 +30,13 @@ export function pageKnownPanel(session, book) {
   element('format-field', HTMLElement).replaceChildren(...fields.nodes('page-format'));
   element('page-sides', HTMLElement).replaceChildren(...fields.nodes('page-wide', 'page-high'));
   element('light-field', HTMLElement).replaceChildren(...fields.nodes('page-light'));
-  session.on('photo', () => {
+  const show = () => {
     const { format, wide, high, light } = session.known;
     for (const [name, value] of Object.entries({ 'page-format': format, 'page-wide': wide, 'page-high': high, 'page-light': light })) fields.set(/** @type {keyof typeof FIELDS} */ (name), value);
     fields.show(format === 'own', 'page-wide', 'page-high');
     fields.hint('page-light', `${PAGE_WORDS.light}${book.photos.length > 1 ? BOOK_WORDS.ownOptions : ''}`);
-  });
+  };
+  session.on('photo', show);
+  session.on('changed', show);
   session.on('outline', ({ outline }) => pages.set(String(outline.pages)));
 }

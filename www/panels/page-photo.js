@@ -10,8 +10,8 @@ import { canvasFromImage } from '../surface/layer.js';
 /** @import {Edge, NodeIndex} from '../page/outline.js' */
 /** @import {Line} from '../page/handles.js' */
 
-/** @param {PageSession} session */
-export function pagePhotoPanel(session) {
+/** @param {PageSession} session @param {import('../history.js').History<any>} history */
+export function pagePhotoPanel(session, history) {
   const box = element('page-photo', HTMLElement);
   const canvas = element('page-canvas', HTMLCanvasElement);
   const caption = element('page-caption', HTMLElement);
@@ -42,7 +42,7 @@ export function pagePhotoPanel(session) {
     // `aria-disabled` in the place of `disabled`, so that the button keeps the focus.
     fewer.setAttribute('aria-disabled', String(!isBendChosen()));
     more.setAttribute('aria-disabled', String(session.photo === null));
-    undo.setAttribute('aria-disabled', String(!session.canUndo));
+    undo.setAttribute('aria-disabled', String(!history.canUndo));
     suggest.hidden = !session.isOutlineChanged;
   };
   /** @param {number} handle */
@@ -60,13 +60,7 @@ export function pagePhotoPanel(session) {
   fewer.addEventListener('click', () => isBendChosen() && remove(chosen));
   element('page-turn', HTMLButtonElement).addEventListener('click', () => session.turn());
   suggest.addEventListener('click', () => session.reset());
-  undo.addEventListener('click', () => session.undo());
-  document.addEventListener('keydown', (event) => {
-    const typing = event.target instanceof HTMLInputElement && event.target.type === 'number';
-    if (event.key !== 'z' || !(event.ctrlKey || event.metaKey) || event.shiftKey || typing || box.offsetParent === null) return;
-    event.preventDefault();
-    session.undo();
-  });
+  undo.addEventListener('click', () => history.step());
 
   const paint = () => {
     const context = canvas.getContext('2d');
@@ -109,6 +103,7 @@ export function pagePhotoPanel(session) {
     updateButtons();
   };
   session.on('lines', redraw);
+  session.on('changed', updateButtons);
   session.on('outline', ({ outline, moving }) => {
     nodes = EDGES.flatMap((edge) => outline.edges[edge].flatMap((_, node, { length }) =>
       (edge > 1 && (node === 0 || node === length - 1) ? [] : [{ edge, node }])));

@@ -150,7 +150,7 @@ export function pageResultPanel(api, session, book, onWritten) {
     const status = element('save-size', HTMLElement);
     const chosenPaper = () => (paper.value === '' ? null : PAPERS[/** @type {PaperName} */ (paper.value)]);
     /** @param {PackageWorker} worker @param {AbortSignal} signal @param {boolean} [withText] */
-    const flatBook = (worker, signal, withText = false) => book.flatPages(api, session, worker, chosenPaper(), withText, signal, (done) => {
+    const flatBook = (worker, signal, withText = false) => book.flatPages(api, worker, chosenPaper(), withText, signal, (done) => {
       status.textContent = BOOK_WORDS.writing(done + 1, book.photos.length);
     }).finally(onWritten);
     const ofBook = several ? { stem: `${title}-pages`, note: () => BATCH_WORDS.without(book.problems()) } : {};
@@ -165,7 +165,7 @@ export function pageResultPanel(api, session, book, onWritten) {
       title: 'Flat page',
       stem: `${wish.photo.name}-flat`,
       formats: [
-        { value: 'pdf', name: 'PDF', ...ofBook, words: several ? BOOK_WORDS.pdf(book.photos.length, book.unfound(session).map(({ file: { name } }) => `“${name}”`)) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker, signal) => {
+        { value: 'pdf', name: 'PDF', ...ofBook, words: several ? BOOK_WORDS.pdf(book.photos.length, book.unfound.map(({ file: { name } }) => `“${name}”`)) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker, signal) => {
           if (several) return worker.writeBook(await flatBook(worker, signal, text.checked), { title });
           flat ??= await flattenWholePhoto(worker, wish, /** @type {DewarpedPage} */ (found));
           return worker.writeBook(await pictureFiles(worker, flat, pages, quarters, chosenPaper(), { ink: wish.options.ink, text: text.checked }), { title });

@@ -1,7 +1,8 @@
 /** The part of the page that makes photos of pages flat: opens photos and examples, and holds the panels of a photo. */
 import { element, SETTLING_MS } from '../dom.js';
 import { choiceOf } from '../fields.js';
-import { Book } from '../page/book.js';
+import { History } from '../history.js';
+import { Book, isSameBook } from '../page/book.js';
 import { BOOK_WORDS } from '../page/messages.js';
 import { openPhoto, preparePhoto } from '../page/photo.js';
 import { PageSession } from '../page/session.js';
@@ -44,16 +45,14 @@ export function pagePanel(api, onOpened, onChanged) {
   const ensureSession = () => {
     if (session) return session;
     const created = (session = new PageSession(api));
-    pagePhotoPanel(created);
+    created.on('changed', note);
+    pagePhotoPanel(created, history);
     pageKnownPanel(created, book);
     pageResultPanel(api, created, book, list.renew);
     created.on('flat', ({ moving }) => {
       if (moving || !created.photo?.file) return;
       clearTimeout(storeTimer);
-      storeTimer = window.setTimeout(() => {
-        book.saveState(created);
-        onChanged(book.photos.map(({ state }) => state), book.index);
-      }, SETTLING_MS);
+      storeTimer = window.setTimeout(() => onChanged(book.photos.map(({ state }) => state), book.index), SETTLING_MS);
     });
     return created;
   };
@@ -89,30 +88,41 @@ export function pagePanel(api, onOpened, onChanged) {
 
   /** Opens a photo of the book by its index. @param {number} at @throws if it cannot be opened */
   const openAt = async (at) => {
-    if (session) book.saveState(session);
+    if (!session?.photo?.file) history.clear();
     const { file, state } = book.photos[at];
     if (!(await show((signal) => openPhoto(api, file, signal), { task: 'reading', state }))) return false;
     examples.set('');
     book.index = at;
+    note();
     list.renew();
     onOpened(book.photos, at);
     return true;
   };
+  /** @type {History<import('../page/book.js').BookState>} */
+  const history = new History(element('page-side', HTMLElement), ({ photos, index, shown }) => {
+    book.photos = photos.map((photo) => ({ ...photo }));
+    if (session?.photo?.file !== photos[index]?.file) return void showPhoto(index);
+    book.index = index;
+    list.renew();
+    session?.restore(shown);
+    if (photos.length > 0) onOpened(book.photos, index);
+  }, isSameBook);
+  const note = () => {
+    if (!session) return;
+    book.saveState(session);
+    history.note({ ...book.snapshot, shown: session.state() });
+  };
   /** Opens a photo of the book that the user has chosen. @param {number} at */
   const showPhoto = (at) => openAt(at).catch((error) => showError(`“${book.photos[at].file.name}” could not be opened`, error));
   const list = pageBookPanel(book, showPhoto, async () => {
-    const { index } = book;
-    if (session) book.saveState(session);
-    const photo = book.remove(index);
+    note();
+    const { file } = book.remove(book.index);
     await showPhoto(book.index);
-    showNotice(BOOK_WORDS.removed(photo.file.name), 'note', {
-      label: BOOK_WORDS.undo,
-      act: () => {
-        book.photos.splice(index, 0, photo);
-        void showPhoto(index);
-      },
-    });
-  }, () => onOpened(book.photos, book.index));
+    showNotice(BOOK_WORDS.removed(file.name), 'note', { label: BOOK_WORDS.undo, act: () => history.step() });
+  }, () => {
+    note();
+    onOpened(book.photos, book.index);
+  });
 
   /**
    * Opens photos, and adds them to those that are open.
@@ -121,7 +131,7 @@ export function pagePanel(api, onOpened, onChanged) {
    * @returns {Promise<string | null>} a note about them; null if none was opened
    */
   const openAll = async (files, alone = false) => {
-    const earlier = { photos: [...book.photos], index: book.index };
+    const earlier = book.snapshot;
     if (alone) book.setFiles([]);
     /** Puts back the photos from before, since none has taken their place. */
     const giveUp = () => {
@@ -162,6 +172,7 @@ export function pagePanel(api, onOpened, onChanged) {
   };
   const openExample = async () => {
     book.setFiles([]);
+    history.clear();
     list.renew();
     const name = examples.value || 'curled';
     const { address, pages } = EXAMPLES[name];
@@ -184,6 +195,7 @@ export function pagePanel(api, onOpened, onChanged) {
     },
     /** Opens photos that this browser has kept, with their outlines. @param {readonly File[]} files @param {readonly (PageState | null)[]} states @param {number} [shown] index of the one that is shown */
     async openStored(files, states, shown = 0) {
+      history.clear();
       book.setFiles(files, states);
       list.renew();
       await showPhoto(shown);

@@ -2,6 +2,7 @@
 import { element } from '../dom.js';
 import { above, between, fieldsOf } from '../fields.js';
 import { shortLambda } from '../format.js';
+import { History } from '../history.js';
 import { AUTO_LAMBDA_HINT, ENERGIES, lambdaChoiceInWords, lambdaHint, meshLambdaChoiceInWords } from '../messages.js';
 
 /** The field for λ; its bounds are those that the package checks. */
@@ -30,6 +31,11 @@ export function settingsPanel(session, meshFit) {
     if (!options.check()) session.updateSettings(now);
   });
   element('solver-fields', HTMLElement).append(...options.nodes());
+
+  /** @type {History<Settings>} */
+  const history = new History(element('heights-side', HTMLElement), (settings) => adopt(settings));
+  session.on('cleared', () => history.clear());
+  session.on('result', ({ settings }) => history.note(settings));
 
   /** The further options that are chosen. */
   const chosen = () => {
@@ -111,14 +117,13 @@ export function settingsPanel(session, meshFit) {
   meshFit.on('result', ({ report }) => followAuto(meshFit.lambda === 'auto' ? report.lambda : undefined));
   meshFit.on('left', () => followAuto(session.result?.surface.report.lambda));
 
-  return {
-    /** Sets all settings, in the session and in the controls. @param {Settings} settings */
-    adopt(settings) {
-      if (settings.lambda !== 'auto') showLambda(settings.lambda);
-      showAuto(settings.lambda === 'auto');
-      showOptions(settings);
-      session.updateSettings(settings);
-      updateHint();
-    },
+  /** Sets all settings, in the session and in the controls. @param {Settings} settings */
+  const adopt = (settings) => {
+    if (settings.lambda !== 'auto') showLambda(settings.lambda);
+    showAuto(settings.lambda === 'auto');
+    showOptions(settings);
+    session.updateSettings(settings);
+    updateHint();
   };
+  return { adopt };
 }

@@ -2,6 +2,7 @@
 import { element, make, makeButton, SETTLING_MS } from '../dom.js';
 import { between, fieldsOf } from '../fields.js';
 import { number } from '../format.js';
+import { History } from '../history.js';
 import { keep, kept } from '../kept.js';
 import { assemblyOf, buildSteps, drawingImage, MAX_SIDE_MM, MIN_SIDE_MM, MM_PER_UNIT, sheetFigures, sheetsInWords, suggestedSide, trueSide } from '../pattern.js';
 import { hasCode, plainMessage } from '../error-messages.js';
@@ -117,6 +118,11 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     metalNote.textContent = thickness === undefined ? SHEET_WORDS.upperSide : SHEET_WORDS.blank(number((thickness * side()) / length));
   };
   const preview = make('div', 'preview');
+  /** @type {History<Record<string, string | boolean>>} */
+  const history = new History(preview, (values) => {
+    for (const [name, value] of Object.entries(values)) fields.set(/** @type {FieldName} */ (name), value);
+    void draw();
+  });
   const status = make('p', 'said');
   status.setAttribute('role', 'status');
   const waitingElement = make('div', 'waiting');
@@ -187,6 +193,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
       return offer.renew();
     }
     keepOptions();
+    history.note(fields.values(.../** @type {FieldName[]} */ (Object.keys(lastOptions)), ...OF_MODEL));
     status.textContent = '';
     again.hidden = true;
     preview.setAttribute('aria-busy', 'true');

@@ -37,7 +37,7 @@ export async function withFileName(path, read) {
     return await read();
   } catch (error) {
     if (error instanceof DevelopableError && error.code !== 'TRAP') {
-      throw new Problem(status.input, `${path}: ${asFlags(error.message).replace(/^this file: /, '')}`);
+      throw new Problem(status.input, `${path}: ${asFlags(error.message)}`);
     }
     throw error;
   }

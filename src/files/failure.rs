@@ -2,7 +2,12 @@
 
 use crate::error::Error;
 
-/// Makes the error for a file that is damaged or not of the format that it was read as, which [`in_format`] names.
+/// What to do about a damaged file.
+#[cfg(any(feature = "formats", feature = "meshes"))]
+const COPY_AGAIN: &str = "copy, download or export it again";
+
+/// Makes the error for a file that is damaged or not of the format that it was read as, which [`in_format`] names. A reason
+/// without advice, which stands behind a semicolon, gets some.
 #[cfg(any(feature = "formats", feature = "meshes"))]
 pub(super) fn damaged(reason: impl ToString) -> Error {
     /// Maximum number of characters that are kept of a decoder's error message: some messages quote the line, which may be
@@ -15,7 +20,35 @@ pub(super) fn damaged(reason: impl ToString) -> Error {
         reason.truncate(end);
         reason.push('…');
     }
+    if !reason.contains(';') {
+        reason = format!("{reason}; {COPY_AGAIN}");
+    }
     Error::Format { format: "", reason }
+}
+
+/// Makes the error for a file that a decoder of another library cannot read. Its own words say more than where the file ends.
+#[cfg(any(feature = "formats", feature = "meshes"))]
+pub(super) fn undecodable(error: impl ToString) -> Error {
+    /// Words of decoders about a file that ends too early.
+    const CUT_SHORT: [&str; 10] = [
+        "end of file",
+        "unexpected end",
+        "EOF",
+        "EOCD",
+        "fill whole buffer",
+        "missing bytes",
+        "completely read",
+        "too short",
+        "exceeds that of slice",
+        "truncated",
+    ];
+    let said = error.to_string();
+    if CUT_SHORT.iter().any(|words| said.contains(words)) {
+        return damaged("it is cut short: it ends before all of it is there");
+    }
+    // What follows is no advice.
+    let said = said.replace(';', ",");
+    damaged(format!("a part of it cannot be read ({said})"))
 }
 
 /// Makes the error for a file with contents that are not read; [`in_format`] names its format.

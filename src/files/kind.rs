@@ -52,7 +52,7 @@ const SAVE_AS_GLB: &str = "let a 3D program such as Blender save it as GLB";
 const SAVE_PAGES: &str =
     "save its page as a picture, for example by `pdftoppm -r 300 -jpeg file.pdf page`";
 const OPEN_DOCUMENT: &str = "save it as PDF, and the PDF's pages as pictures";
-const UNPACK_FIRST: &str = "unpack it first";
+const UNPACK_FIRST: &str = "it is packed: unpack it first";
 
 /// First bytes of a DICOM file: 128 of any kind, then its name.
 const DICOM_START: [u8; 132] = {
@@ -199,7 +199,7 @@ pub(super) fn refused(bytes: &[u8], purpose: Purpose) -> Error {
         let advice = match purpose {
             #[cfg(feature = "formats")]
             Purpose::Heights if !is_text => CONVERT_RAW,
-            _ => "save what is in it as one that is read",
+            _ => "it is of no format that is read",
         };
         (name, advice.into())
     };

@@ -67,7 +67,7 @@ test('a flag without a value, and numbers that cannot be, are refused in plain w
     [['fit', 'm.obj', '-o', 'o.obj', '--view', '0,0,0'], 2, /: --view is \[0, 0, 0\], but/],
     [['fit', 'm.obj', '-o', 'o.obj', '--view', '1e999,0,0'], 2, /: --view is \[Infinity, 0, 0\], but/],
     [['pattern', 'a.npy', '-o', 'o.svg', '--as-is', '--lattice', 'hex', '--marks', '0.5'], 2, /: --marks is 0\.5, but must be from 1 to 50000, or 0 for none\n/],
-    [['fit', 'words.txt', '-o', 'o.npy'], 3, /^developable: words\.txt: text: save what is in it as one that is read; heights are read from PNG/],
+    [['fit', 'words.txt', '-o', 'o.npy'], 3, /^developable: words\.txt: text: it is of no format that is read; heights are read from PNG/],
     [['dewarp', 'm.obj', '--texture', 'p.png', '-o', 'o.png'], 3, /: nothing says where in the photo the points of m\.obj are: --photo-camera FILE/],
     [['pattern', 'a.npy', '-o', 'o.svg', '--as-is', '--lattice', 'hex', '--k-factor', '0.4'], 2, /: --inner-radius and --k-factor are .*: give --thickness, too\n/],
   ];

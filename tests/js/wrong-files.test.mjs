@@ -116,8 +116,11 @@ test('the command takes a file by what is in it where its name does not tell', a
 test('a file that is cut short is said to be, and nothing else', async () => {
   for (const name of ['grey.jpg', 'grey16.png', 'f4.tif', 'grey.webp', 'f4-le.npy']) {
     const file = await readFile(join(root, 'tests/data', name));
-    await refused('read', file.subarray(0, file.length - 20), 'FORMAT', /cut short/);
+    await refused('read', file.subarray(0, file.length - 20), 'FORMAT', /cut short.*; copy, download or export it again$/);
   }
+  // What a decoder says of itself comes after what it means.
+  await refused('readMesh', bytes('{"asset":{"version":"2.0"},'), 'FORMAT', /glTF: it is cut short: it ends before all of it is there; copy/);
+  await refused('readMesh', bytes('{"asset":?}'), 'FORMAT', /glTF: a part of it cannot be read \(.*\); copy/);
   const old = bytes('{"asset":{"version":"1.0"},"meshes":{}}');
   await refused('readMesh', old, 'UNSUPPORTED', /^glTF: only version 2 is read; `gltf-pipeline /);
   const far = bytes('{"asset":{"version":"2.0"},"buffers":[{"uri":"https://example.com/b.bin","byteLength":4}]}');

@@ -161,9 +161,9 @@ sharedTest('the file button opens a file', async (page) => {
 sharedTest('a file of the wrong kind is named, and the part of the page that takes it is one click away', async (page) => {
   const alert = page.getByRole('alert');
   for (const [name, content, says] of /** @type {const} */ ([
-    ['letter.docx', 'PK\x03\x04 word/', /“letter.docx” could not be read: document of an office program: save it as PDF.*\. This page opens/],
+    ['letter.docx', 'PK\x03\x04 word/', /“letter.docx” could not be read: document of an office program: save it as PDF, and the PDF's pages as pictures/],
     ['notes.txt', 'Dear Anna', /“notes.txt” has no heights/], ['part.step', 'ISO-10303-21;', /save it as a mesh/], ['clip.mp4', '\0\0\0\x18ftypisom', /film: save one of its pictures/],
-    ['text.png', 'Dear Anna', /“text\.png” could not be read: it is text, in none of the formats that are read\. This page opens/], ['notes.docx', 'PK\x03\x04', /it is a packed archive, to be unpacked first\. This page opens/],
+    ['text.png', 'Dear Anna', /“text\.png” could not be read: text: it is of no format that is read; heights are read from PNG/], ['notes.docx', 'PK\x03\x04', /archive: it is packed: unpack it first/],
   ])) {
     await drop(page, name, Buffer.from(content));
     await alert.filter({ hasText: says }).waitFor();

@@ -282,7 +282,7 @@ doorTest('the pages of a PDF are photos of pages, read by what is loaded only th
   assert.ok(flat.width > 700, `${flat.width} pixels`);
   await page.keyboard.press('Escape');
   await dropAll(page, { 'torn.pdf': pdf.subarray(0, 300) });
-  await page.getByRole('alert').filter({ hasText: /“torn\.pdf” could not be read: .* damaged, or not of the format PDF: .* again/ }).waitFor();
+  await page.getByRole('alert').filter({ hasText: /“torn\.pdf” could not be read: it is damaged, or no PDF .* again/ }).waitFor();
   assert.equal(await numbers.count(), 2);
 });
 

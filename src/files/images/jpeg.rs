@@ -8,7 +8,7 @@ use zune_jpeg::errors::DecodeErrors;
 
 use super::photo::{PhotoFile, PhotoPixels, PhotoTags};
 use crate::error::{Error, Result, try_filled};
-use crate::files::failure::{check_length, damaged, not_read};
+use crate::files::failure::{check_length, damaged, not_read, undecodable};
 
 /// Bytes of the marker that ends a JPEG file.
 const JPEG_END_MARKER: [u8; 2] = [0xff, 0xd9];
@@ -90,7 +90,7 @@ impl<'a> OpenedJpeg<'a> {
 }
 
 fn failed(error: DecodeErrors) -> Error {
-    damaged(format!("{error:?}"))
+    undecodable(format!("{error:?}"))
 }
 
 /// Returns whether a JPEG file is complete: it has the marker of the image's end, not counting pictures within its

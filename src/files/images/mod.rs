@@ -122,7 +122,7 @@ pub fn decode_basic(
     let found = Format::detect(bytes);
     let found = match format {
         Some(stated) => stated.checked(found)?,
-        None => found.ok_or_else(|| unsupported("this file", reason))?,
+        None => found.ok_or_else(|| unsupported("a file of another format", reason))?,
     };
     let stored = match found {
         Format::Png => png::decode(bytes),

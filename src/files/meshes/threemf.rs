@@ -11,7 +11,7 @@ use super::builder::{DEFAULT_VERTEX_COLOUR, MeshBuilder};
 use super::corners::Corners;
 use super::unit::FileUnit;
 use crate::error::{Error, MAX_CELLS, Result};
-use crate::files::failure::damaged;
+use crate::files::failure::{damaged, undecodable};
 
 /// Maximum size of the text of a model, in bytes: about that of the largest mesh.
 const MAX_MODEL_BYTES: u64 = 64 * MAX_CELLS as u64;
@@ -30,7 +30,7 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<FileUnit> {
     let documents = (texts.iter())
         .map(|(name, text)| Ok((name.as_str(), Document::parse(text)?)))
         .collect::<std::result::Result<Vec<_>, roxmltree::Error>>()
-        .map_err(damaged)?;
+        .map_err(undecodable)?;
     let Some((path, main)) = documents.first() else {
         return Err(damaged("there is no model in the archive"));
     };
@@ -64,17 +64,17 @@ pub(super) fn read(bytes: &[u8], parts: &mut MeshBuilder) -> Result<FileUnit> {
 /// Returns the paths and texts of the models in the archive, first the one that is built: others, in folders below, have
 /// objects that it names.
 fn models(bytes: &[u8]) -> Result<Vec<(String, String)>> {
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(damaged)?;
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(undecodable)?;
     let mut names: Vec<String> = (archive.file_names())
         .filter(|name| name.to_ascii_lowercase().ends_with(".model"))
         .map(String::from)
         .collect();
     let mut left = MAX_MODEL_BYTES;
     let mut read = |name: String| {
-        let file = archive.by_name(&name).map_err(damaged)?;
+        let file = archive.by_name(&name).map_err(undecodable)?;
         let mut text = String::new();
         let read = file.take(left + 1).read_to_string(&mut text);
-        let length = read.map_err(damaged)? as u64;
+        let length = read.map_err(undecodable)? as u64;
         left = left.checked_sub(length).ok_or(Error::TooLarge {
             what: "mesh",
             requested: MAX_MODEL_BYTES as usize + 1,

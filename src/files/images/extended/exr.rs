@@ -15,7 +15,7 @@ use super::samples::narrowed;
 use crate::error::{Error, Result, checked_cells, try_filled};
 use crate::files::Assumption;
 use crate::files::buffer::reserve;
-use crate::files::failure::{check_length, damaged, not_read};
+use crate::files::failure::{check_length, damaged, not_read, undecodable};
 use crate::files::images::decoded::{StoredImage, recorded_sides};
 use crate::files::images::grey::{Channels, grey};
 use crate::files::number_type::NumberType;
@@ -242,7 +242,7 @@ fn heights_among(
 fn failed(error: ExrError) -> Error {
     match error {
         ExrError::NotSupported(what) => not_read(what),
-        other => damaged(other),
+        other => undecodable(other),
     }
 }
 

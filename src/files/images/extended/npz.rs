@@ -9,7 +9,7 @@ use crate::MAX_CELLS;
 use crate::error::{Error, Result};
 use crate::files::Assumption;
 use crate::files::buffer::reserve;
-use crate::files::failure::{check_length, damaged, in_format, not_read};
+use crate::files::failure::{check_length, in_format, not_read, undecodable};
 use crate::files::image_format::Format;
 use crate::files::images::decoded::StoredImage;
 use crate::files::images::npy;
@@ -57,7 +57,7 @@ fn headers(bytes: &[u8]) -> Result<Vec<NpzArray>> {
             let mut head = Vec::new();
             let entry = archive.by_name(&member(&name)).map_err(failed)?;
             let whole = entry.take(MAX_HEADER_BYTES).read_to_end(&mut head);
-            whole.map_err(damaged)?;
+            whole.map_err(undecodable)?;
             let (shape, data_type) = npy::describe(&head).map_err(|e| within(&name, e))?;
             let is_large = |(rows, cols): (usize, usize)| rows.min(cols) > MAX_CAMERA_MATRIX_SIDE;
             Ok(NpzArray {
@@ -110,7 +110,7 @@ pub(super) fn decode(bytes: &[u8], array: Option<&str>) -> Result<StoredImage> {
     reserve(&mut file, "NPZ array", size)?;
     // The decoder never returns more than the header states, and the archive's checksum verifies it.
     let read = entry.take(size as u64 + 1).read_to_end(&mut file);
-    read.map_err(damaged)?;
+    read.map_err(undecodable)?;
     let mut image = crate::files::kind::announced(&file, Some(Format::Npy))
         .and_then(|_| npy::decode(&file))
         .map_err(|e| within(name, e))?;
@@ -155,6 +155,6 @@ fn within(name: &str, mut error: Error) -> Error {
 fn failed(error: ZipError) -> Error {
     match error {
         ZipError::UnsupportedArchive(what) => not_read(what),
-        other => damaged(other),
+        other => undecodable(other),
     }
 }

@@ -15,7 +15,7 @@ use ::weezl::decode::Decoder as LzwDecoder;
 use ::weezl::{BitOrder, LzwStatus};
 
 use crate::error::{Error, Result};
-use crate::files::failure::{damaged, not_read};
+use crate::files::failure::{damaged, not_read, undecodable};
 
 pub(crate) type File<'a> = Decoder<Cursor<Cow<'a, [u8]>>>;
 
@@ -124,10 +124,10 @@ pub(crate) fn unpacked_bits(rows: &[u8], width: usize) -> Vec<u8> {
 
 /// Appends decompressed data, up to a length of the whole.
 fn inflate_zstandard(compressed: &[u8], plain: &mut Vec<u8>, max_length: usize) -> Result<()> {
-    let decoder = StreamingDecoder::new(compressed).map_err(damaged)?;
+    let decoder = StreamingDecoder::new(compressed).map_err(undecodable)?;
     let left = max_length.saturating_sub(plain.len());
     let read = decoder.take(left as u64 + 1).read_to_end(plain);
-    read.map_err(damaged)?;
+    read.map_err(undecodable)?;
     check_inflated(plain, max_length)
 }
 
@@ -144,7 +144,7 @@ fn inflate_lzw(mut compressed: &[u8], plain: &mut Vec<u8>, max_length: usize) ->
         plain.truncate(start + step.consumed_out);
         compressed = &compressed[step.consumed_in..];
         check_inflated(plain, max_length)?;
-        if !matches!(step.status.map_err(damaged)?, LzwStatus::Ok) {
+        if !matches!(step.status.map_err(undecodable)?, LzwStatus::Ok) {
             return Ok(());
         }
     }
@@ -245,6 +245,6 @@ pub(crate) fn failed(error: TiffError) -> Error {
         TiffError::IoError(cause) if cause.kind() == ErrorKind::UnexpectedEof => {
             damaged("it is cut short")
         }
-        other => damaged(other),
+        other => undecodable(other),
     }
 }

@@ -5,7 +5,7 @@ use std::io::Cursor;
 use image_webp::{DecodingError, WebPDecoder};
 
 use crate::error::{Result, try_filled};
-use crate::files::failure::{damaged, not_read};
+use crate::files::failure::{damaged, not_read, undecodable};
 use crate::files::images::photo::{PhotoFile, PhotoPixels, PhotoTags};
 
 /// Maximum memory that the WebP decoder may allocate for metadata, in bytes.
@@ -43,6 +43,6 @@ fn open(bytes: &[u8]) -> Result<WebPDecoder<Cursor<&[u8]>>> {
 fn failed(error: DecodingError) -> crate::error::Error {
     match error {
         DecodingError::UnsupportedFeature(what) => not_read(what),
-        other => damaged(other),
+        other => undecodable(other),
     }
 }

@@ -7,7 +7,7 @@ use zune_core::options::DecoderOptions;
 use super::exif::PhotoTags;
 use super::pixels::{PhotoFile, PhotoPixels};
 use crate::error::{Error, Result, try_filled};
-use crate::files::failure::{check_length, damaged};
+use crate::files::failure::{check_length, damaged, undecodable};
 
 pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     let options = DecoderOptions::default()
@@ -27,5 +27,5 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
 }
 
 fn failed(error: BmpDecoderErrors) -> Error {
-    damaged(format!("{error:?}"))
+    undecodable(format!("{error:?}"))
 }

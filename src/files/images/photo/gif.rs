@@ -7,7 +7,7 @@ use ::gif::{ColorOutput, DecodeOptions, DecodingError, MemoryLimit};
 use super::exif::PhotoTags;
 use super::pixels::{MAX_FILE_PIXELS, PhotoFile, PhotoPixels};
 use crate::error::{Error, Result, try_filled};
-use crate::files::failure::damaged;
+use crate::files::failure::undecodable;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
     let mut options = DecodeOptions::new();
@@ -40,5 +40,5 @@ pub(super) fn decode(bytes: &[u8]) -> Result<PhotoFile> {
 }
 
 fn failed(error: DecodingError) -> Error {
-    damaged(error)
+    undecodable(error)
 }

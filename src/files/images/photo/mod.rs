@@ -69,7 +69,7 @@ pub fn decode_photo_basic(bytes: &[u8]) -> Result<PhotoFile> {
         Some(Format::Png) => png::decode(bytes).map_err(in_format(Format::Png)),
         Some(Format::Jpeg) => jpeg::decode_photo(bytes).map_err(in_format(Format::Jpeg)),
         _ => Err(unsupported(
-            "this file",
+            "a file of another format",
             "only PNG and JPEG photos are read here",
         )),
     }

@@ -7,7 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
 
 use crate::error::{MAX_CELLS, Result, try_filled};
-use crate::files::failure::{damaged, not_read};
+use crate::files::failure::{damaged, not_read, undecodable};
 use crate::files::number_type::NumberType;
 
 /// Decodes the bytes that a `data:` address in a glTF file contains; `None` for another kind of address.
@@ -18,7 +18,7 @@ pub(super) fn embedded(uri: &str) -> Result<Option<Vec<u8>>> {
     let Some((_, data)) = data.split_once(";base64,") else {
         return Err(damaged("embedded data are not in base64"));
     };
-    let bytes = STANDARD.decode(data).map_err(damaged)?;
+    let bytes = STANDARD.decode(data).map_err(undecodable)?;
     Ok(Some(bytes))
 }
 

@@ -13,7 +13,7 @@ use self::data::{Data, embedded, list, numbers, whole};
 use super::beside::Beside;
 use super::builder::{DEFAULT_VERTEX_COLOUR, MeshBuilder, NO_TEXTURE};
 use crate::error::{Error, Result};
-use crate::files::failure::{damaged, not_read};
+use crate::files::failure::{damaged, not_read, undecodable};
 
 /// What is said of files of version 1.
 const OTHER_VERSION: &str =
@@ -34,7 +34,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside, parts: &mut MeshBuilder) -> Re
         true => chunks(bytes)?,
         false => (bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), None),
     };
-    let root: Value = serde_json::from_slice(json).map_err(damaged)?;
+    let root: Value = serde_json::from_slice(json).map_err(undecodable)?;
     if (root["asset"]["version"].as_str()).is_some_and(|version| !version.starts_with("2.")) {
         return Err(not_read(OTHER_VERSION));
     }

@@ -3,7 +3,7 @@
 use super::WarpMap;
 use crate::error::{Result, checked_cells, try_filled};
 use crate::math::lanes;
-use crate::math::planar::LeastBox;
+use crate::math::planar::{LeastBox, bounds};
 
 impl WarpMap {
     /// Rotates the map counter-clockwise by an angle in radians, on a larger image that holds it. Places are
@@ -21,16 +21,9 @@ impl WarpMap {
             let [x, y] = [corner[0] + x, corner[1] - y];
             [cos * x - sin * y, sin * x + cos * y]
         });
-        let least = |k: usize| corners.iter().map(|c| c[k]).fold(f64::INFINITY, f64::min);
-        let most = |k: usize| {
-            corners
-                .iter()
-                .map(|c| c[k])
-                .fold(f64::NEG_INFINITY, f64::max)
-        };
-        let (left, top) = (least(0), most(1));
+        let [[left, bottom], [right, top]] = bounds(corners.iter());
         let [width, height] =
-            [most(0) - left, top - least(1)].map(|side| side.ceil().max(1.0) as usize);
+            [right - left, top - bottom].map(|side| side.ceil().max(1.0) as usize);
         checked_cells("flat image", height, width)?;
         let mut places = try_filled("flat image", width * height, [f32::NAN; 2])?;
         for (row, line) in places.chunks_exact_mut(width).enumerate() {

@@ -28,6 +28,7 @@
 //! # }
 //! ```
 
+mod bilinear;
 mod box_reduction;
 mod charts;
 mod continuation;
@@ -44,6 +45,7 @@ mod verdict;
 mod warp_grid;
 mod warp_map;
 
+pub(crate) use bilinear::bilinear;
 pub use box_reduction::BoxReduction;
 pub use extent::Extent;
 pub use options::DewarpOptions;

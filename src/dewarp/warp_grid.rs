@@ -1,8 +1,8 @@
 //! Warp maps reduced to the nodes of a coarser grid, interpolated bilinearly in between.
 
 use super::WarpMap;
+use super::bilinear::bilinear;
 use super::local_quadratic::LocalQuadratic;
-use super::raster::ROUNDING_TOLERANCE;
 use crate::error::{Error, Result, positive, try_filled};
 use crate::math::lanes;
 
@@ -177,36 +177,4 @@ impl WarpGrid {
         self.rms = (squares / f64::max(count, 1.0)).sqrt();
         self.maximum = maximum.sqrt();
     }
-}
-
-/// Interpolates the values of a grid of `columns` by `rows` nodes bilinearly at `[x, y]`, in nodes from the first one;
-/// None outside of the grid, and where a value is NaN.
-fn bilinear(
-    [x, y]: [f64; 2],
-    [columns, rows]: [usize; 2],
-    value: impl Fn(usize) -> [f64; 2],
-) -> Option<[f64; 2]> {
-    let [right, bottom] = [columns, rows].map(|n| (n - 1) as f64);
-    if !((-ROUNDING_TOLERANCE..=right + ROUNDING_TOLERANCE).contains(&x)
-        && (-ROUNDING_TOLERANCE..=bottom + ROUNDING_TOLERANCE).contains(&y))
-    {
-        return None;
-    }
-    let cell = |v: f64, n: usize| (v.max(0.0) as usize).min(n.saturating_sub(2));
-    let (col, row) = (cell(x, columns), cell(y, rows));
-    let (fx, fy) = (x - col as f64, y - row as f64);
-    let mut sum = [0.0; 2];
-    for (dx, dy, weight) in [
-        (0, 0, (1.0 - fx) * (1.0 - fy)),
-        (1, 0, fx * (1.0 - fy)),
-        (0, 1, (1.0 - fx) * fy),
-        (1, 1, fx * fy),
-    ] {
-        // Values without weight may be missing.
-        if weight.abs() > ROUNDING_TOLERANCE {
-            let found = value((row + dy) * columns + col + dx);
-            sum = [sum[0] + weight * found[0], sum[1] + weight * found[1]];
-        }
-    }
-    (!sum[0].is_nan()).then_some(sum)
 }

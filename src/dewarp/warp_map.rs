@@ -9,7 +9,7 @@ use super::raster::{Canvas, rasterise};
 use super::registration::{PhotoProjection, Registration};
 use super::verdict::{MAX_FLAT_STRAIN, Verdict};
 use crate::error::{Error, Result, checked_cells, positive, try_filled};
-use crate::math::planar::{bounds, orientation};
+use crate::math::planar::{Point2, bounds, orientation};
 use crate::unroll::{UnrollReport, Unrolling};
 
 /// A warp map: for each pixel of a flat image its place in the photo.
@@ -164,36 +164,27 @@ impl WarpMap {
     /// square root of the sheet's area.
     pub fn displacement(&self) -> f64 {
         // The least squares of |p - (a q + b)|² over complex a and b, with p and q relative to about the middle.
-        let middle = [self.width, self.height].map(|n| 0.5 * n as f64);
+        let middle = Point2::new(0.5 * self.width as f64, 0.5 * self.height as f64);
+        let point = |[x, y]: [f32; 2]| Point2::new(x.into(), y.into());
         let Some(about) = self.places.iter().find(|place| !place[0].is_nan()) else {
             return 0.0;
         };
-        let about = about.map(f64::from);
-        let (mut count, mut from, mut to) = (0.0, [0.0; 2], [0.0; 2]);
-        let (mut qq, mut pp, mut pq) = (0.0, 0.0, [0.0; 2]);
+        let (mut count, mut from, mut to) = (0.0, Point2::default(), Point2::default());
+        let (mut qq, mut pp, mut pq) = (0.0, 0.0, Point2::default());
         for (row, places) in self.places.chunks_exact(self.width).enumerate() {
             for (col, place) in places.iter().enumerate() {
                 if place[0].is_nan() {
                     continue;
                 }
-                let q = [col as f64 - middle[0], row as f64 - middle[1]];
-                let p = [0, 1].map(|k| f64::from(place[k]) - about[k]);
-                count += 1.0;
-                for k in 0..2 {
-                    from[k] += q[k];
-                    to[k] += p[k];
-                }
-                qq += q[0] * q[0] + q[1] * q[1];
-                pp += p[0] * p[0] + p[1] * p[1];
-                pq[0] += p[0] * q[0] + p[1] * q[1];
-                pq[1] += p[1] * q[0] - p[0] * q[1];
+                let q = Point2::new(col as f64, row as f64) - middle;
+                let p = point(*place) - point(*about);
+                (count, from, to) = (count + 1.0, from + q, to + p);
+                (qq, pp, pq) = (qq + q.norm_sqr(), pp + p.norm_sqr(), pq + p * q.conj());
             }
         }
-        qq -= (from[0] * from[0] + from[1] * from[1]) / count;
-        pp -= (to[0] * to[0] + to[1] * to[1]) / count;
-        pq[0] -= (to[0] * from[0] + to[1] * from[1]) / count;
-        pq[1] -= (to[1] * from[0] - to[0] * from[1]) / count;
-        let fitted = pq[0] * pq[0] + pq[1] * pq[1];
+        qq -= from.norm_sqr() / count;
+        pp -= to.norm_sqr() / count;
+        let fitted = (pq - to * from.conj() / count).norm_sqr();
         if qq <= 0.0 || fitted == 0.0 {
             return 0.0;
         }

@@ -8,36 +8,38 @@ use crate::math::planar::{distance, distance_to_segment, orientation, polygon_co
 /// share a corner, or of a line of text outside of its page.
 pub(super) const MAX_TRACING_ERROR: f64 = 0.05;
 
+/// Whether four corners are in clockwise order as seen in the image and form a convex quadrilateral.
+pub(super) fn is_convex(corners: &[[f64; 2]; 4]) -> bool {
+    (0..4).all(|k| orientation(corners[k], corners[(k + 1) % 4], corners[(k + 2) % 4]) > 0.0)
+}
+
 /// Orients both bent edges of a page alike, so that the corners lie clockwise in the photo, and checks that they can
 /// belong to a page.
 ///
 /// # Errors
 /// [`Error::Edges`].
 pub(super) fn arrange([first, second]: &mut [TracedLine; 2]) -> Result<()> {
-    let turns = |first: &TracedLine, second: &TracedLine| {
+    let corners = |first: &TracedLine, second: &TracedLine| {
         let ([a, b], [d, c]) = (first.ends(), second.ends());
-        [[a, b, c], [b, c, d], [c, d, a], [d, a, b]].map(|[p, q, r]| orientation(p, q, r))
+        [a, b, c, d]
     };
-    let convex =
-        |turns: &[f64; 4]| turns.iter().all(|t| *t > 0.0) || turns.iter().all(|t| *t < 0.0);
-    let mut found = turns(first, second);
-    if !convex(&found) {
+    let is_behind = |[a, b, c, d]: [[f64; 2]; 4]| is_convex(&[d, c, b, a]);
+    let given = corners(first, second);
+    if !is_convex(&given) && !is_behind(given) {
         // One of them may run backwards; which one, the sense of the corners tells.
         second.points.reverse();
-        found = turns(first, second);
-        if convex(&found) && found[0] < 0.0 {
+        let found = corners(first, second);
+        if is_behind(found) {
             first.points.reverse();
             second.points.reverse();
-            found = turns(first, second);
-        }
-        if !convex(&found) {
+        } else if !is_convex(&found) {
             return Err(Error::edges(format!(
                 "the ends of the {} and {} edges are no corners of a page: they do not make a \
                      convex quadrilateral",
                 first.name, second.name
             )));
         }
-    } else if found[0] < 0.0 {
+    } else if is_behind(given) {
         // Both run backwards, or each is called by the other's name.
         let sideways = first.name == "right";
         let runs = |line: &TracedLine| {

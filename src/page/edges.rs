@@ -63,15 +63,22 @@ pub enum Edges {
 impl Edges {
     /// The traces: the upper, lower, left and right one, as far as they are given.
     pub fn traces(&self) -> Vec<&Trace> {
+        let [top, right, bottom, left] = self.sides();
+        [top, bottom, left, right].into_iter().flatten().collect()
+    }
+
+    /// The traces of the sides, clockwise from the upper one, as far as they are given; the lower and the left one run the
+    /// other way.
+    pub(super) fn sides(&self) -> [Option<&Trace>; 4] {
         match self {
-            Edges::TopBottom { top, bottom } => vec![top, bottom],
-            Edges::LeftRight { left, right } => vec![left, right],
+            Edges::TopBottom { top, bottom } => [Some(top), None, Some(bottom), None],
+            Edges::LeftRight { left, right } => [None, Some(right), None, Some(left)],
             Edges::All {
                 top,
                 bottom,
                 left,
                 right,
-            } => vec![top, bottom, left, right],
+            } => [top, right, bottom, left].map(Some),
         }
     }
 

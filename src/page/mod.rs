@@ -47,7 +47,6 @@ mod known_sizes;
 mod options;
 mod outline;
 mod page_warp;
-mod pixel_grid;
 mod read_traces;
 mod report;
 mod robust_fit;
@@ -62,7 +61,6 @@ pub use options::{FocalLength, Format, PageOptions, Ruler};
 pub use outline::{
     OutlineReason, OutlineReport, OutlineVerdict, PageOutline, find_outline, trace_edges,
 };
-pub use page_warp::PageWarp;
-pub use pixel_grid::PixelGrid;
+pub use page_warp::{PageWarp, PixelGrid};
 pub use report::{PageDoubt, PageModel, PageReport, PageVerdict};
 pub use surface::PageSurface;

@@ -2,10 +2,26 @@
 
 use std::ops::Range;
 
-use super::pixel_grid::PixelGrid;
+use super::sheet::cell_at;
 use crate::dewarp::{DewarpOptions, Photo, WarpMap};
-use crate::error::{Error, Result, check_count, try_filled};
+use crate::error::{
+    Error, MAX_PHOTO_PIXELS, Result, check_count, checked_pixels, positive, try_filled,
+};
 use crate::math::lanes;
+
+/// Pixel grid of a page's flat image: its size, resolution and corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct PixelGrid {
+    /// Number of columns.
+    pub width: usize,
+    /// Number of rows.
+    pub height: usize,
+    /// Pixels per unit of the flat page's length.
+    pub resolution: f64,
+    /// Position of the upper left corner on the flat page, in its unit of length, with y upwards.
+    pub corner: [f64; 2],
+}
 
 /// Warp map of a flat page by shares: places in the photo, in shares of its width and height, at the nodes of a grid over the
 /// page, bilinear in between.
@@ -83,7 +99,22 @@ impl PageWarp {
     /// [`Error::Option`] for a resolution that is not positive and finite, [`Error::TooLarge`] for an image of more than
     /// [`MAX_CELLS`](crate::MAX_CELLS) pixels.
     pub fn pixel_grid(&self, photo: [usize; 2], options: &DewarpOptions) -> Result<PixelGrid> {
-        PixelGrid::new(self.size, options, || self.seen_area(photo))
+        let resolution = match options.dots {
+            Some(dots) => positive("dots", dots)?,
+            None => {
+                // Less than what is allowed by as much as rounding adds.
+                let pixels = self.seen_area(photo).min(0.999 * MAX_PHOTO_PIXELS as f64);
+                (pixels / (self.size[0] * self.size[1])).sqrt()
+            }
+        };
+        let [width, height] = (self.size).map(|side| (side * resolution).round().max(1.0) as usize);
+        checked_pixels("flat image", height, width)?;
+        Ok(PixelGrid {
+            width,
+            height,
+            resolution,
+            corner: [0.0, self.size[1]],
+        })
     }
 
     /// Computes the warp map of the flat image: for each of its pixels the place in a photo of `photo` (width and height)
@@ -169,7 +200,6 @@ impl PageWarp {
 /// Cell of a grid of `nodes` nodes along one axis in which the centre of a pixel of a flat image lies that has `pixels`
 /// pixels, and the share of the cell before it.
 fn cell_place(pixel: usize, pixels: usize, nodes: usize) -> (usize, f32) {
-    let at = (pixel as f64 + 0.5) / pixels as f64 * (nodes - 1) as f64;
-    let cell = (at as usize).min(nodes - 2);
-    (cell, lanes::single(at - cell as f64))
+    let (cell, before) = cell_at((pixel as f64 + 0.5) / pixels as f64, nodes);
+    (cell, lanes::single(before))
 }

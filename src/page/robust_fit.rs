@@ -62,11 +62,7 @@ pub(super) fn fit<M, S>(
 /// derivative by its square of its pseudo-Huber penalty, which is its square for small residuals and twice its size for large
 /// ones; from 0 to 1.
 pub(super) fn weight(relative: f64) -> f64 {
-    1.0 / root(relative)
-}
-
-fn root(relative: f64) -> f64 {
-    (1.0 + relative * relative).sqrt()
+    1.0 / (1.0 + relative * relative).sqrt()
 }
 
 #[cfg(test)]
@@ -77,7 +73,7 @@ mod tests {
 
     /// Pseudo-Huber penalty of a residual over its outlier threshold.
     fn penalty(relative: f64) -> f64 {
-        2.0 * (root(relative) - 1.0)
+        2.0 * (1.0 / weight(relative) - 1.0)
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Candidate masks of a page in a photo, by thresholds of lightness and colour and by colour histograms of page and
 //! background.
 
-use super::colour_model::{COLOUR_NOISE, ColourModel, opponent_axes, range};
+use super::colour_model::{COLOUR_NOISE, ColourModel, range};
 use super::planes::Planes;
 
 /// Width of the strip along the photo's rim that is initially taken for background, as a share of the photo's sides.
@@ -103,29 +103,21 @@ fn discriminant(axes: &[[f32; 3]], frame: &[bool], middle: &[bool]) -> Vec<f32> 
 /// Makes candidate masks of the page from a reduced photo whose print is suppressed, each saying for every pixel
 /// whether it is page. Most of them are similar if the page is easy to see.
 pub(super) fn candidate_masks(planes: &Planes) -> Vec<Vec<bool>> {
-    let [r, g, b] = &planes.channels;
-    let colours: Vec<[f32; 3]> = (0..planes.len()).map(|i| [r[i], g[i], b[i]]).collect();
-    let axes: Vec<[f32; 3]> = colours
-        .iter()
-        .map(|colour| opponent_axes(*colour))
-        .collect();
     let [frame, middle] = frame_and_middle(planes.width, planes.height);
     let model = ColourModel::new(planes);
-    let pixels = |mask: &'_ [bool]| {
-        let found: Vec<usize> = (0..mask.len()).filter(|i| mask[*i]).collect();
-        found.into_iter()
-    };
-    let mut masks = vec![model.refine(&model.classify(pixels(&middle), pixels(&frame)))];
-    let axis = |k: usize| axes.iter().map(|colour| colour[k]).collect();
-    let saturation: Vec<f32> = colours
-        .iter()
-        .map(|[r, g, b]| r.min(*g).min(*b) - r.max(*g).max(*b))
-        .collect();
+    let pixels = |mask: &[bool]| -> Vec<usize> { (0..mask.len()).filter(|i| mask[*i]).collect() };
+    let first = model.classify(pixels(&middle).into_iter(), pixels(&frame).into_iter());
+    let mut masks = vec![model.refine(&first)];
+    let axis = |k: usize| model.axes.iter().map(|colour| colour[k]).collect();
+    let saturation = (0..planes.len()).map(|i| {
+        let [r, g, b] = planes.channels.each_ref().map(|plane| plane[i]);
+        r.min(g).min(b) - r.max(g).max(b)
+    });
     let features: [Vec<f32>; 4] = [
         axis(0),
-        saturation,
+        saturation.collect(),
         axis(2),
-        discriminant(&axes, &frame, &middle),
+        discriminant(&model.axes, &frame, &middle),
     ];
     for feature in features {
         for threshold in otsu_thresholds(&feature) {

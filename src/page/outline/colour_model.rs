@@ -17,14 +17,10 @@ const SMOOTHING_RADIUS: usize = 2;
 /// Colours of a photo's pixels as numbers of histogram bins, by which page and background are told apart.
 pub(super) struct ColourModel {
     bins: Vec<u16>,
+    /// Lightness and two colour differences of each pixel; the differences do not change with the brightness of the light.
+    pub axes: Vec<[f32; 3]>,
     width: usize,
     height: usize,
-}
-
-/// Converts a logarithmic colour to lightness and two colour differences; the differences do not change with the
-/// brightness of the light.
-pub(super) fn opponent_axes([r, g, b]: [f32; 3]) -> [f32; 3] {
-    [(r + g + b) / 3.0, r - g, b - g]
 }
 
 /// Computes the minimum and the maximum of values.
@@ -39,7 +35,7 @@ impl ColourModel {
     pub fn new(planes: &Planes) -> Self {
         let [r, g, b] = &planes.channels;
         let axes: Vec<[f32; 3]> = (0..planes.len())
-            .map(|i| opponent_axes([r[i], g[i], b[i]]))
+            .map(|i| [(r[i] + g[i] + b[i]) / 3.0, r[i] - g[i], b[i] - g[i]])
             .collect();
         let mut bins = vec![0_u16; axes.len()];
         for (axis, &count) in BINS_PER_COMPONENT.iter().enumerate() {
@@ -52,6 +48,7 @@ impl ColourModel {
         }
         ColourModel {
             bins,
+            axes,
             width: planes.width,
             height: planes.height,
         }

@@ -7,7 +7,7 @@ use super::planes::Planes;
 use super::region::regions;
 use super::search::{MIN_PHOTO_SIDE_PIXELS, SAME_CORNER_SHARE};
 use super::tracing::{MIN_VISIBLE_SHARE, thinned};
-use super::views::Views;
+use super::views::{View, Views};
 use crate::dewarp::Photo;
 use crate::math::planar::{distance, polygon_contains, polyline_length};
 use crate::page::edges::{Edges, Trace};
@@ -28,20 +28,18 @@ pub fn trace_edges(photo: &Photo<'_>, pages: &[Edges]) -> Vec<Edges> {
         return pages.to_vec();
     }
     // Print hides paper, and its removal ground beside it: borders are taken of both.
-    let models = [&views.raw, &views.clean].map(|planes| {
-        let half = planes.halved();
-        let model = ColourModel::new(&half);
-        (half, model)
-    });
+    let view = views.without_print();
+    let raw_half = views.raw.halved();
+    let models = [&raw_half, &view.half].map(|half| (half, ColourModel::new(half)));
     let traced = |page: &Edges| {
         let borders: Vec<Vec<[f64; 2]>> = (models.iter())
             .flat_map(|(half, model)| page_borders(half, model, &quadrilateral(page)))
             .collect();
         let mut corners = quadrilateral(page).map(|corner| views.raw.reduced_point(corner));
-        let sides = sides_with_ends_alone(page);
+        let sides = (page.sides()).map(|side| side.is_some_and(Trace::has_ends_alone));
         let paths = [0, 1, 2, 3].map(|k| {
             let ends = [corners[k], corners[(k + 1) % 4]];
-            sides[k].then(|| edge_between(&views, &borders, ends))?
+            sides[k].then(|| edge_between(&view, &borders, ends))?
         });
         for k in 0..4 {
             let before = (k + 3) % 4;
@@ -49,7 +47,7 @@ pub fn trace_edges(photo: &Photo<'_>, pages: &[Edges]) -> Vec<Edges> {
                 let mut one = one.clone();
                 one.reverse();
                 corners[k] = meeting(&one, other, END_LENGTH_SHARE)
-                    .filter(|found| distance(*found, corners[k]) <= end_tolerance(&views))
+                    .filter(|found| distance(*found, corners[k]) <= end_tolerance(&views.raw))
                     .unwrap_or(corners[k]);
             }
         }
@@ -93,61 +91,40 @@ fn page_borders(
     [first, refined].into_iter().filter_map(move |mask| {
         let largest = (regions(&mask, width, 1).into_iter()).max_by_key(|region| region.area)?;
         let border = largest.border(width).into_iter();
-        Some(
-            border
-                .map(|p| p.map(|at| 2.0 * f64::from(at) + 0.5))
-                .collect(),
-        )
+        Some(border.map(|p| p.map(|at| 2.0 * at + 0.5)).collect())
     })
 }
 
-/// Whether each side of a page, clockwise from the upper one, is given by its two ends alone.
-fn sides_with_ends_alone(page: &Edges) -> [bool; 4] {
-    let (top, right, bottom, left) = match page {
-        Edges::TopBottom { top, bottom } => (Some(top), None, Some(bottom), None),
-        Edges::LeftRight { left, right } => (None, Some(right), None, Some(left)),
-        Edges::All {
-            top,
-            bottom,
-            left,
-            right,
-        } => (Some(top), Some(right), Some(bottom), Some(left)),
-    };
-    [top, right, bottom, left].map(|trace| trace.is_some_and(Trace::has_ends_alone))
-}
-
-/// Corners of a page, clockwise: the ends of two of its edges that face each other.
+/// Corners of a page, clockwise from the upper left one: the ends of two of its edges that face each other.
 fn quadrilateral(page: &Edges) -> [[f64; 2]; 4] {
-    let ends = |trace: &Trace| {
-        let (Trace::Points(points) | Trace::Beziers(points)) = trace;
-        [points.first(), points.last()].map(|end| end.copied().unwrap_or_default())
+    let ends = |trace: Option<&Trace>| {
+        let (Trace::Points(points) | Trace::Beziers(points)) = trace?;
+        Some([*points.first()?, *points.last()?])
     };
-    let [[a, b], [c, d]] = match page {
-        Edges::TopBottom { top, bottom } | Edges::All { top, bottom, .. } => {
-            [ends(top), ends(bottom)]
-        }
-        Edges::LeftRight { left, right } => [ends(left), ends(right)],
-    };
-    [a, b, d, c]
+    let [top, right, bottom, left] = page.sides().map(ends);
+    match (top.zip(bottom), left.zip(right)) {
+        (Some(([a, b], [d, c])), _) | (None, Some(([a, d], [b, c]))) => [a, b, c, d],
+        _ => [[0.0; 2]; 4],
+    }
 }
 
 /// Maximum distance of a page's border from a given end of its edge, in pixels of the reduced photo.
-fn end_tolerance(views: &Views) -> f64 {
-    SAME_CORNER_SHARE * views.raw.longer_side()
+fn end_tolerance(raw: &Planes) -> f64 {
+    SAME_CORNER_SHARE * raw.longer_side()
 }
 
 /// Finds the clearest edge between two ends, clockwise around the page: beside the straight line, or beside a border that
 /// passes both ends. None if none is visible along half of its length.
 fn edge_between(
-    views: &Views,
+    view: &View<'_>,
     borders: &[Vec<[f64; 2]>],
     ends: [[f64; 2]; 2],
 ) -> Option<Vec<[f64; 2]>> {
-    let tolerance = end_tolerance(views);
+    let tolerance = end_tolerance(view.raw);
     let beside_borders = (borders.iter()).filter_map(|border| arc_between(border, ends, tolerance));
     let path = std::iter::once(ends.to_vec())
         .chain(beside_borders)
-        .filter_map(|guide| EdgePath::new(&views.without_print(), &guide))
+        .filter_map(|guide| EdgePath::new(view, &guide))
         .filter(|path| path.visible * path.support >= MIN_VISIBLE_SHARE)
         .max_by(|one, other| one.clarity().total_cmp(&other.clarity()))?;
     Some(path.points)
@@ -191,4 +168,28 @@ fn arc_between(border: &[[f64; 2]], ends: [[f64; 2]; 2], tolerance: f64) -> Opti
     // At most a half circle.
     let limit = std::f64::consts::FRAC_PI_2 * distance(ends[0], ends[1]);
     (polyline_length(&coarse) <= limit).then_some(moved)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corners_are_clockwise_whichever_edges_are_given() {
+        let corners @ [a, b, c, d] = [[0.0, 0.0], [4.0, 1.0], [5.0, 6.0], [1.0, 7.0]];
+        let trace = |from, to| Trace::Points(vec![from, to]);
+        let [top, bottom, left, right] = [trace(a, b), trace(d, c), trace(a, d), trace(b, c)];
+        let upright = Edges::LeftRight {
+            left: left.clone(),
+            right: right.clone(),
+        };
+        assert_eq!(quadrilateral(&upright), corners);
+        let all = Edges::All {
+            top,
+            bottom,
+            left,
+            right,
+        };
+        assert_eq!(quadrilateral(&all), corners);
+    }
 }

@@ -1,6 +1,6 @@
 //! Corners of a page with subpixel accuracy: intersections of neighbouring edges.
 
-use crate::math::planar::{cross, distance, line_intersection, polyline_length, principal_line};
+use crate::math::planar::{distance, line_intersection, polyline_length, principal_line};
 use crate::page::corners::MAX_TRACING_ERROR;
 
 /// Share of an edge's points next to a corner that is left out, because paper is worn and bent there.
@@ -83,12 +83,4 @@ pub(super) fn end_at(edge: &mut Vec<[f64; 2]>, corner: [f64; 2]) {
         }
     }
     edge.splice(..skip, [corner]);
-}
-
-/// Whether four corners are in clockwise order as seen in the image and form a convex quadrilateral.
-pub(super) fn is_convex(corners: &[[f64; 2]; 4]) -> bool {
-    (0..4).all(|k| {
-        let [a, b, c] = [corners[k], corners[(k + 1) % 4], corners[(k + 2) % 4]];
-        cross([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]) > 0.0
-    })
 }

@@ -60,11 +60,7 @@ fn seen_along(edge: &[[f64; 2]], diagonal: f64) -> Vec<bool> {
         let turns_inwards = run.iter().copied().flatten().any(|(_, angle)| *angle > 0.0);
         if !is_paper(run[0]) && turns_inwards {
             let (from, to) = (run[0][0].0, run[run.len() - 1][1].0);
-            let from = if from > 0 {
-                from.saturating_sub(arm)
-            } else {
-                0
-            };
+            let from = from.saturating_sub(arm);
             seen[from..=(to + arm).min(last)].fill(false);
         }
     }

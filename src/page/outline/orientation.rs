@@ -1,6 +1,7 @@
 //! Orientation of a page by its print: lines of text run from left to right, and the upper half has more print.
 
 use super::planes::Planes;
+use crate::dewarp::bilinear;
 use crate::math::planar::distance;
 
 /// Number of samples along the longer side of a page when the orientation of its print is determined.
@@ -53,8 +54,7 @@ pub(super) fn quarter_turns(raw: &Planes, clean: &Planes, corners: &[[f64; 2]; 4
     let (mut total, mut right) = (0.0, 0.0);
     for (i, value) in print.iter_mut().enumerate() {
         let (u, v) = (share(i % width, width), share(i / width, height));
-        let [x, y] = [0, 1]
-            .map(|k| (1.0 - v) * ((1.0 - u) * a[k] + u * b[k]) + v * ((1.0 - u) * d[k] + u * c[k]));
+        let [x, y] = bilinear([u, v], [2, 2], |i| *[a, b, d, c][i]).unwrap_or(*a);
         let pixel = |at: f64, size: usize| at.round().clamp(0.0, size as f64 - 1.0) as usize;
         let place = pixel(y, raw.height) * raw.width + pixel(x, raw.width);
         *value = clean.channels[1][place] - raw.channels[1][place];

@@ -1,6 +1,6 @@
 //! Reduced photos as planes of logarithmic red, green and blue.
 
-use crate::dewarp::{BoxReduction, Photo};
+use crate::dewarp::{BoxReduction, Photo, bilinear};
 use crate::page::working_photo::WorkingPhoto;
 
 /// Maximum length of the longer side of a reduced photo or flat page, in pixels: a photo's edges are found to a tenth of such a
@@ -93,18 +93,12 @@ impl Planes {
 
     /// Bilinear colour at a point; `[0, 0]` is the centre of the upper left pixel. The image continues beyond its rim.
     pub fn colour(&self, [x, y]: [f64; 2]) -> [f32; 3] {
-        let x = x.clamp(0.0, self.width as f64 - 1.0);
-        let y = y.clamp(0.0, self.height as f64 - 1.0);
-        let (col, row) = (x as usize, y as usize);
-        let (fx, fy) = ((x - col as f64) as f32, (y - row as f64) as f32);
-        let next = (col + 1).min(self.width - 1) - col;
-        let below = ((row + 1).min(self.height - 1) - row) * self.width;
-        let i = row * self.width + col;
-        self.channels.each_ref().map(|plane| {
-            let upper = plane[i] + fx * (plane[i + next] - plane[i]);
-            let lower = plane[i + below] + fx * (plane[i + below + next] - plane[i + below]);
-            upper + fy * (lower - upper)
-        })
+        let size = [self.width, self.height];
+        let at = [0, 1].map(|k| [x, y][k].clamp(0.0, size[k] as f64 - 1.0));
+        let found = bilinear(at, size, |i| {
+            self.channels.each_ref().map(|plane| f64::from(plane[i]))
+        });
+        found.map_or([f32::NAN; 3], |colour| colour.map(|value| value as f32))
     }
 
     /// Converts a point from the photo's pixels to the reduced photo's pixels.

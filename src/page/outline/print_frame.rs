@@ -4,7 +4,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::corners::CUT_END_LENGTH_SHARE;
+use super::corners::{CUT_END_LENGTH_SHARE, is_outside};
 use super::edge_path::AVERAGING_RADIUS;
 use super::morphology::{box_mean, vertical_mean};
 use super::planes::Planes;
@@ -181,12 +181,7 @@ impl PrintFrame {
             [0, 1].map(|k| u * axes[0][k] + v * axes[1][k])
         };
         let is_seen: Vec<bool> = (0..len)
-            .map(|i| {
-                let [x, y] = place(i);
-                x.min(y) > PRINT_FRAME_RIM_PIXELS
-                    && right - x > PRINT_FRAME_RIM_PIXELS
-                    && bottom - y > PRINT_FRAME_RIM_PIXELS
-            })
+            .map(|i| !is_outside(place(i), photo, -PRINT_FRAME_RIM_PIXELS))
             .collect();
         let is_print: Vec<bool> = (0..len)
             .map(|i| is_seen[i] && print.is_among_letters(place(i).map(|at| at.round() as usize)))

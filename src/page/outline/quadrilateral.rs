@@ -1,9 +1,8 @@
 //! Quadrilaterals of regions in a mask: four corners on a region's border, and a score of how much it is like a page.
 
-use super::planes::RIM_PIXELS;
 use super::region::Region;
 use crate::math::planar::{
-    convex_hull, cross, distance, orientation, polygon_area, polyline_length,
+    convex_hull, cross, difference, distance, orientation, polygon_area, polyline_length,
 };
 
 /// The border of a region in a mask, divided by four corners, clockwise.
@@ -40,44 +39,23 @@ fn largest_quadrilateral(polygon: &[[f64; 2]]) -> Option<[usize; 4]> {
     best.1
 }
 
-/// Whether a point lies on the rim of an image of size `[width, height]`.
-pub(super) fn is_at_rim([x, y]: [f64; 2], [width, height]: [usize; 2]) -> bool {
-    x.min(y) <= RIM_PIXELS
-        || x >= width as f64 - 1.0 - RIM_PIXELS
-        || y >= height as f64 - 1.0 - RIM_PIXELS
-}
-
-/// Interior angle at each corner of a quadrilateral, in radians.
-fn corner_angles(corners: &[[f64; 2]; 4]) -> [f64; 4] {
-    [0, 1, 2, 3].map(|k| {
-        let [before, at, after] = [corners[(k + 3) % 4], corners[k], corners[(k + 1) % 4]];
-        let (u, v) = (
-            [before[0] - at[0], before[1] - at[1]],
-            [after[0] - at[0], after[1] - at[1]],
-        );
-        cross(u, v).abs().atan2(u[0] * v[0] + u[1] * v[1])
-    })
-}
-
 /// Score of how much four corners are like those of a sheet of paper seen by a camera, from 0 to 1: right angles, and
 /// opposite sides of equal length, give 1.
 pub(super) fn rectangularity(corners: &[[f64; 2]; 4]) -> f64 {
-    let angles = corner_angles(corners).map(|angle| angle.sin().max(0.0));
-    let lengths = [0, 1, 2, 3].map(|k| distance(corners[k], corners[(k + 1) % 4]));
+    let side = |k: usize| difference(corners[k % 4], corners[(k + 1) % 4]);
+    let lengths = [0, 1, 2, 3].map(|k| side(k)[0].hypot(side(k)[1]));
+    let sines = [0, 1, 2, 3]
+        .map(|k| cross(side(k), side(k + 1)).abs() / (lengths[k] * lengths[(k + 1) % 4]).max(1e-9));
     let ratio = |a: f64, b: f64| (a.min(b) / a.max(b).max(1e-9)).sqrt();
     let sides = ratio(lengths[0], lengths[2]) * ratio(lengths[1], lengths[3]);
-    angles.iter().product::<f64>().sqrt() * sides
+    sines.iter().product::<f64>().sqrt() * sides
 }
 
 impl Quadrilateral {
     /// Finds the quadrilateral of a region in a mask `width` pixels wide. `None` if the region is too small to have
     /// corners.
     pub fn new(region: &Region, width: usize) -> Option<Self> {
-        let border: Vec<[f64; 2]> = region
-            .border(width)
-            .iter()
-            .map(|pixel| pixel.map(f64::from))
-            .collect();
+        let border = region.border(width);
         let hull = convex_hull(border.clone());
         let hull_area = polygon_area(&hull).abs();
         let corners = largest_quadrilateral(&hull)?.map(|k| hull[k]);

@@ -8,23 +8,6 @@ pub(super) struct Region {
     pub area: usize,
 }
 
-/// Calls `visit` with each of the up to four neighbours of pixel `i`, in an image of `len` pixels, `width` of them in a
-/// row.
-fn for_neighbours(i: usize, width: usize, len: usize, mut visit: impl FnMut(usize)) {
-    if !i.is_multiple_of(width) {
-        visit(i - 1);
-    }
-    if !(i + 1).is_multiple_of(width) {
-        visit(i + 1);
-    }
-    if i >= width {
-        visit(i - width);
-    }
-    if i + width < len {
-        visit(i + width);
-    }
-}
-
 /// Finds the pixels that are connected to `start` and satisfy `takes` (flood fill), and marks them in `seen`.
 pub(in crate::page) fn flood(
     start: usize,
@@ -37,12 +20,19 @@ pub(in crate::page) fn flood(
     seen[start] = true;
     let mut next = 0;
     while next < found.len() {
-        for_neighbours(found[next], width, len, |j| {
+        let i = found[next];
+        let beside = [
+            (!i.is_multiple_of(width)).then(|| i - 1),
+            (!(i + 1).is_multiple_of(width)).then_some(i + 1),
+            i.checked_sub(width),
+            (i + width < len).then_some(i + width),
+        ];
+        for j in beside.into_iter().flatten() {
             if !seen[j] && takes(j) {
                 seen[j] = true;
                 found.push(j);
             }
-        });
+        }
         next += 1;
     }
     found
@@ -84,7 +74,7 @@ fn without_holes(pixels: &[usize], len: usize, width: usize) -> Region {
 
 impl Region {
     /// Traces the pixels along the region's border, clockwise as seen in the image (Moore's algorithm).
-    pub fn border(&self, width: usize) -> Vec<[i32; 2]> {
+    pub fn border(&self, width: usize) -> Vec<[f64; 2]> {
         const NEIGHBOUR_OFFSETS: [[i32; 2]; 8] = [
             [1, 0],
             [1, 1],
@@ -130,7 +120,7 @@ impl Region {
             ];
             border.push(at);
         }
-        border
+        border.into_iter().map(|at| at.map(f64::from)).collect()
     }
 }
 
@@ -155,7 +145,7 @@ mod tests {
         let border = found[0].border(width);
         assert_eq!(border.len(), 24);
         // Clockwise in an image, whose rows go down.
-        assert_eq!(border[..3], [[2, 2], [3, 2], [4, 2]]);
+        assert_eq!(border[..3], [[2.0, 2.0], [3.0, 2.0], [4.0, 2.0]]);
         assert_eq!(regions(&mask, width, 1).len(), 2);
     }
 }

@@ -106,12 +106,12 @@ pub fn find_outline(photo: &Photo<'_>) -> OutlineReport {
 
 /// Finds outlines of pages in one view of a photo, the best first.
 fn outlines_in(view: &View<'_>) -> Vec<PageOutline> {
-    let half = view.planes.halved();
+    let half = &view.half;
     let min_area = ((MIN_PAGE_SHARE * half.len() as f64) as usize).max(1);
     let tolerance = SAME_CORNER_SHARE * half.longer_side();
     let mut quadrilaterals: Vec<Quadrilateral> = Vec::new();
-    for mask in candidate_masks(&half) {
-        for region in view.regions(&mask, half.width, min_area) {
+    for mask in candidate_masks(half) {
+        for region in view.regions(&mask, min_area) {
             quadrilaterals.extend(Quadrilateral::new(&region, half.width));
         }
     }
@@ -160,15 +160,9 @@ fn around_print(views: &Views) -> Option<PageOutline> {
 /// Makes the report of a search: the verdict and its reasons, from outlines of which the best is first. Outlines that
 /// are worse, or that overlap the best one, are dropped.
 fn report(mut outlines: Vec<PageOutline>) -> OutlineReport {
-    let Some(best) = outlines.first() else {
-        return OutlineReport {
-            verdict: OutlineVerdict::NotFound,
-            reasons: vec![OutlineReason::NoPage],
-            pages: outlines,
-        };
-    };
-    let (corners, score) = (best.corners, best.score);
-    let mut reasons = best.reasons.clone();
+    let (corners, score, mut reasons) = (outlines.first())
+        .map(|best| (best.corners, best.score, best.reasons.clone()))
+        .unwrap_or_default();
     let verdict = if score < MIN_DOUBTFUL_SCORE {
         reasons.push(OutlineReason::NoPage);
         OutlineVerdict::NotFound
@@ -180,13 +174,12 @@ fn report(mut outlines: Vec<PageOutline>) -> OutlineReport {
     if verdict == OutlineVerdict::Doubtful && reasons.is_empty() {
         reasons.push(OutlineReason::UnlikelyShape);
     }
-    let mut first = true;
-    outlines.retain(|other| {
-        std::mem::take(&mut first)
-            || (verdict != OutlineVerdict::NotFound
-                && other.score >= MIN_FOUND_SCORE
-                && are_apart(&corners, &other.corners))
-    });
+    let others = outlines.split_off(outlines.len().min(1));
+    outlines.extend(others.into_iter().filter(|other| {
+        verdict != OutlineVerdict::NotFound
+            && other.score >= MIN_FOUND_SCORE
+            && are_apart(&corners, &other.corners)
+    }));
     OutlineReport {
         verdict: if outlines.len() > 1 {
             OutlineVerdict::Several

@@ -1,15 +1,15 @@
 //! Outlines of candidate pages: their edges traced with subpixel accuracy, their corners, and their scores.
 
 use super::corners::{
-    CUT_END_LENGTH_SHARE, END_LENGTH_SHARE, end_at, is_convex, is_outside, meeting, outside_corner,
+    CUT_END_LENGTH_SHARE, END_LENGTH_SHARE, end_at, is_outside, meeting, outside_corner,
 };
 use super::covered::seen_points;
 use super::edge_path::EdgePath;
 use super::outline_report::{OutlineReason, PageOutline};
-use super::planes::Planes;
-use super::quadrilateral::is_at_rim;
+use super::planes::{Planes, RIM_PIXELS};
 use super::views::View;
 use crate::math::planar::distance;
+use crate::page::corners::is_convex;
 
 /// Minimum share of an edge with visible contrast; below it the outline is reported as having a faint edge.
 const MIN_EDGE_SUPPORT: f64 = 0.85;
@@ -37,11 +37,6 @@ pub(super) fn thinned(edge: &[[f64; 2]], raw: &Planes) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Number of points at the start of an arc that lie on the rim of an image of size `size`.
-fn cut_points(arc: &[[f64; 2]], size: [usize; 2]) -> usize {
-    arc.iter().take_while(|p| is_at_rim(**p, size)).count()
-}
-
 /// Extrapolates the corners that the rim of an image of size `size` cuts off, and removes from the arcs next to them
 /// the parts along the rim. None for a corner that is not cut off.
 fn cut_corners(arcs: &mut [Vec<[f64; 2]>; 4], size: [usize; 2]) -> [Option<[f64; 2]>; 4] {
@@ -50,7 +45,10 @@ fn cut_corners(arcs: &mut [Vec<[f64; 2]>; 4], size: [usize; 2]) -> [Option<[f64;
         let mut one = arcs[before].clone();
         one.reverse();
         let other = &arcs[k];
-        let cuts = [cut_points(&one, size), cut_points(other, size)];
+        let cuts = [&one, other].map(|arc| {
+            let is_at_rim = |p: &&[f64; 2]| is_outside(**p, size, -RIM_PIXELS);
+            arc.iter().take_while(is_at_rim).count()
+        });
         if cuts == [0, 0] || cuts[0] == one.len() || cuts[1] == other.len() {
             return None;
         }
@@ -70,14 +68,16 @@ pub(super) fn traced(
     likeness: f64,
 ) -> Option<PageOutline> {
     let size = [view.raw.width, view.raw.height];
-    let mut reasons = Vec::new();
     let cut = cut_corners(&mut arcs, size);
-    let mut paths = Vec::new();
-    for arc in &arcs {
-        paths.push(EdgePath::new(view, arc)?);
-    }
-    let support = (paths.iter())
+    let paths: Option<Vec<EdgePath>> = arcs.iter().map(|arc| EdgePath::new(view, arc)).collect();
+    let paths = paths?;
+    let visible: Vec<&EdgePath> = (paths.iter())
         .filter(|path| path.visible >= MIN_VISIBLE_SHARE)
+        .collect();
+    if visible.len() < view.min_visible_edges {
+        return None;
+    }
+    let support = (visible.iter())
         .map(|path| path.support)
         .fold(1.0, f64::min);
     let mut edges: Vec<Vec<[f64; 2]>> = paths.iter().map(|path| path.points.clone()).collect();
@@ -112,36 +112,19 @@ pub(super) fn traced(
         one.reverse();
         edges[before] = one;
         edges[k] = other;
-        if is_outside(corners[k], size, MAX_OUTSIDE_SHARE * view.raw.longer_side()) {
-            is_corner_outside = true;
-        }
+        let limit = MAX_OUTSIDE_SHARE * view.raw.longer_side();
+        is_corner_outside |= is_outside(corners[k], size, limit);
     }
-    if is_corner_outside {
-        reasons.push(OutlineReason::CornerOutside);
-    }
-    if is_corner_covered {
-        reasons.push(OutlineReason::CornerCovered);
-    }
-    let visible_edges = (paths.iter())
-        .filter(|path| path.visible >= MIN_VISIBLE_SHARE)
-        .count();
-    if visible_edges < view.min_visible_edges {
-        return None;
-    }
-    if visible_edges < 4 {
-        reasons.push(OutlineReason::EdgeOutside);
-    }
-    if !is_convex(&corners) {
-        reasons.push(OutlineReason::UnlikelyShape);
-    }
-    if support < MIN_EDGE_SUPPORT {
-        reasons.push(OutlineReason::FaintEdge);
-    }
-    let visible = paths.iter().map(|path| path.visible).sum::<f64>() / 4.0;
-    let contrast = paths
-        .iter()
-        .filter(|path| path.visible >= MIN_VISIBLE_SHARE)
-        .map(EdgePath::contrast_score)
+    let reasons = [
+        (OutlineReason::CornerOutside, is_corner_outside),
+        (OutlineReason::CornerCovered, is_corner_covered),
+        (OutlineReason::EdgeOutside, visible.len() < 4),
+        (OutlineReason::UnlikelyShape, !is_convex(&corners)),
+        (OutlineReason::FaintEdge, support < MIN_EDGE_SUPPORT),
+    ];
+    let seen_share = paths.iter().map(|path| path.visible).sum::<f64>() / 4.0;
+    let contrast = (visible.iter())
+        .map(|path| path.contrast_score())
         .product::<f64>()
         .sqrt()
         .sqrt();
@@ -150,7 +133,9 @@ pub(super) fn traced(
     Some(PageOutline {
         corners: corners.map(|corner| view.raw.to_photo(corner)),
         edges,
-        score: likeness * support * visible * contrast,
-        reasons,
+        score: likeness * support * seen_share * contrast,
+        reasons: (reasons.into_iter())
+            .filter_map(|(reason, holds)| holds.then_some(reason))
+            .collect(),
     })
 }

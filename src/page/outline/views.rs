@@ -40,6 +40,8 @@ pub(super) struct View<'a> {
     pub raw: &'a Planes,
     /// The reduced photo in which paper and ground are told apart.
     pub planes: &'a Planes,
+    /// The same at half the resolution.
+    pub half: Planes,
     /// Amount by which suppressing print changes each pixel of the halved photo; empty where print is suppressed.
     marks: Vec<f32>,
     /// Half the width, in pixels of the halved photo, of what is too narrow for paper and of gaps in it; 0 for none.
@@ -67,6 +69,7 @@ impl Views {
         View {
             raw: &self.raw,
             planes: &self.clean,
+            half: self.clean.halved(),
             marks: Vec::new(),
             narrow: 0,
             step_cost: STEP_COST,
@@ -78,10 +81,12 @@ impl Views {
 
     /// The view of the photo as it is, in which a pattern of the ground is told from paper by its width.
     pub fn as_it_is(&self) -> View<'_> {
+        let half = self.raw.halved();
         View {
             raw: &self.raw,
             planes: &self.raw,
-            marks: marks(&self.clean.halved(), &self.raw.halved()),
+            marks: marks(&self.clean.halved(), &half),
+            half,
             narrow: (0.25 * PRINT_WIDTH_SHARE * self.raw.longer_side()) as usize,
             step_cost: PATTERN_STEP_COST,
             averaged_share: END_LENGTH_SHARE,
@@ -100,9 +105,10 @@ fn marks(clean: &Planes, raw: &Planes) -> Vec<f32> {
 }
 
 impl View<'_> {
-    /// Finds the regions of a mask of paper, `width` pixels wide, that have at least `min_area` pixels: without narrow parts of the
+    /// Finds the regions of a mask of paper at half the resolution that have at least `min_area` pixels: without narrow parts of the
     /// ground, and joined across bars of print.
-    pub fn regions(&self, mask: &[bool], width: usize, min_area: usize) -> Vec<Region> {
+    pub fn regions(&self, mask: &[bool], min_area: usize) -> Vec<Region> {
+        let width = self.half.width;
         let found = regions(mask, width, min_area);
         if self.narrow == 0 || found.is_empty() {
             return found;

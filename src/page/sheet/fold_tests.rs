@@ -7,7 +7,8 @@ use super::fit::FittedSheet;
 use super::grid::{SheetGrid, node_shares};
 use super::plane::CameraPrior;
 use super::polyline::Polyline;
-use super::problem::{LevelLine, ResidualRow, SheetProblem, SheetWeights};
+use super::problem::{LevelLine, ResidualRow, SheetProblem};
+use super::search::FIRM_PAPER_WEIGHTS;
 
 const PAGE_RATIO: f64 = 1.4;
 
@@ -45,7 +46,7 @@ fn folded([x, y]: [f64; 2], crease: f64) -> Vector3<f64> {
 }
 
 fn seen(grid: &SheetGrid, share: [f64; 2]) -> [f64; 2] {
-    grid.camera.project(grid.at(share)).unwrap()
+    grid.seen(&grid.place(share)).unwrap()
 }
 
 /// The line across a sheet at the share `at` of its height as the photo shows it, expected at the share `level`.
@@ -83,13 +84,7 @@ fn problem(grid: &SheetGrid, lines: Vec<LevelLine>, folds: Vec<LevelLine>) -> Sh
         },
         ratio: [PAGE_RATIO.ln(), 0.002],
         depth: 3.0,
-        weights: SheetWeights {
-            isometry: 300.0,
-            bending: [1.5; 2],
-            outline: 350.0,
-            corners: 300.0,
-            lines: 400.0,
-        },
+        weights: FIRM_PAPER_WEIGHTS,
     }
 }
 

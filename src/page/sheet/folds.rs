@@ -3,8 +3,6 @@
 //! that is folded once across is folded in its middle, which tells it. `benches/page.md`, Folds, says how the constants were
 //! chosen.
 
-use std::ops::Range;
-
 use super::place_table::PlaceTable;
 use super::problem::LevelLine;
 use super::view::PhotoView;
@@ -118,7 +116,8 @@ fn visible_paths(mut strips: Vec<Vec<f32>>) -> Vec<FoldPath> {
         let mut visible = [0.0; STRIP_COUNT];
         for ((row, strip), visible) in path.iter().zip(&mut strips).zip(&mut visible) {
             *visible = strip[*row];
-            strip[near(*row, FOLD_FREE_MARGIN_ROWS)].fill(0.0);
+            let end = (row + FOLD_FREE_MARGIN_ROWS + 1).min(PROFILE_ROWS);
+            strip[row.saturating_sub(FOLD_FREE_MARGIN_ROWS)..end].fill(0.0);
         }
         let outer = [
             &visible[..OUTER_STRIP_COUNT],
@@ -139,29 +138,18 @@ fn row_share(row: usize) -> f64 {
     (row as f64 + 0.5) / PROFILE_ROWS as f64
 }
 
-/// Rows up to `radius` away from a row.
-fn near(row: usize, radius: usize) -> Range<usize> {
-    row.saturating_sub(radius)..(row + radius + 1).min(PROFILE_ROWS)
-}
-
 /// Computes how visible a fold is in each row of a strip, from 0 to 1: the steps of the paper's logarithmic brightness
 /// relative to the strip's median one. `brightness` gives the photo's by numbers of sample and row.
 fn visibility(brightness: impl Fn(usize, usize) -> f32) -> Vec<f32> {
     let mut bright: Vec<f32> = (0..PROFILE_ROWS)
         .map(|row| {
             // The second brightest sample is paper, unless print covers the strip.
-            let mut brightest = [0.0_f32; 2];
-            for value in (0..SAMPLES_PER_STRIP).map(|sample| brightness(sample, row)) {
-                if value > brightest[0] {
-                    brightest = [value, brightest[0]];
-                } else if value > brightest[1] {
-                    brightest[1] = value;
-                }
-            }
-            if brightest[1] > 0.0 {
-                (brightest[1] + 1.0).ln()
-            } else {
-                f32::NAN
+            let mut samples: [f32; SAMPLES_PER_STRIP] =
+                std::array::from_fn(|sample| brightness(sample, row).max(0.0));
+            let second = samples.select_nth_unstable_by(SAMPLES_PER_STRIP - 2, f32::total_cmp);
+            match *second.1 {
+                second if second > 0.0 => (second + 1.0).ln(),
+                _ => f32::NAN,
             }
         })
         .collect();
@@ -195,8 +183,8 @@ fn visibility(brightness: impl Fn(usize, usize) -> f32) -> Vec<f32> {
         })
         .collect();
     let mut sorted = steps.clone();
-    sorted.sort_by(f32::total_cmp);
-    let visible = VISIBLE_STEP_RATIO * (sorted[PROFILE_ROWS / 2] + MIN_STEP_NOISE);
+    let (_, median, _) = sorted.select_nth_unstable_by(PROFILE_ROWS / 2, f32::total_cmp);
+    let visible = VISIBLE_STEP_RATIO * (*median + MIN_STEP_NOISE);
     let mut found = vec![0.0; PROFILE_ROWS];
     for row in FOLD_FREE_MARGIN_ROWS..PROFILE_ROWS - FOLD_FREE_MARGIN_ROWS {
         found[row] = (steps[row] / visible).min(1.0);

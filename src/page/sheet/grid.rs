@@ -26,9 +26,20 @@ pub(super) struct GridPlace {
     pub derivative_down: [f64; 4],
 }
 
+impl GridPlace {
+    /// The place of one node.
+    pub fn node(node: usize) -> Self {
+        GridPlace {
+            nodes: [node; 4],
+            weights: [1.0, 0.0, 0.0, 0.0],
+            derivative_down: [0.0; 4],
+        }
+    }
+}
+
 /// Number of the cell of a row of `nodes` nodes that a share of its length lies in, and the share of the cell before it.
 #[inline]
-pub(super) fn cell_at(share: f64, nodes: usize) -> (usize, f64) {
+pub(in crate::page) fn cell_at(share: f64, nodes: usize) -> (usize, f64) {
     let at = share * (nodes - 1) as f64;
     let cell = (at.max(0.0) as usize).min(nodes - 2);
     (cell, at - cell as f64)
@@ -70,9 +81,9 @@ impl SheetGrid {
         }
     }
 
-    /// Interpolates the sheet's position in space bilinearly, at shares of the page's width and height.
-    pub fn at(&self, share: [f64; 2]) -> Vector3<f64> {
-        self.sum(&self.place(share).nodes, &self.place(share).weights)
+    /// Projects a place to normalised image coordinates; None if it is not in front of the camera.
+    pub fn seen(&self, place: &GridPlace) -> Option<[f64; 2]> {
+        (self.camera).project(self.sum(&place.nodes, &place.weights))
     }
 
     /// Weighted sum of the positions in space of four nodes of the sheet's grid.

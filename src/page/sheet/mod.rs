@@ -2,9 +2,7 @@
 //!
 //! The sheet is a grid of points in space that keeps lengths, bends little, and meets the four edges and the lines of
 //! print of the photo; large bends count by their size and not by their square, so that folds form. Focal length,
-//! principal point and, of unknown formats, the proportions are found along with it. (Nail Gumerov, Ali Zandifar,
-//! Ramani Duraiswami, Larry Davis, *Structure of Applicable Surfaces from Single Views*, ECCV 2004, show that an
-//! outline nearly determines a smooth sheet.)
+//! principal point and, of unknown formats, the proportions are found along with it.
 
 mod camera;
 mod figures;
@@ -23,5 +21,5 @@ mod search;
 mod sheet_page;
 mod view;
 
-pub(super) use grid::node_shares;
+pub(super) use grid::{cell_at, node_shares};
 pub(super) use sheet_page::SheetPage;

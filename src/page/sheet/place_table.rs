@@ -1,7 +1,8 @@
 //! Table of the places in the photo that belong to a fine grid over a flat page.
 
-use super::grid::{SheetGrid, cell_at, node_shares};
+use super::grid::{SheetGrid, node_shares};
 use super::view::PhotoView;
+use crate::dewarp::bilinear;
 use crate::error::{Error, Result};
 use crate::math::planar::{distance, polyline_length};
 
@@ -86,15 +87,10 @@ impl PlaceTable {
     /// Interpolates the place in the photo, in pixels, at shares of the page's width and height.
     #[inline]
     pub fn at(&self, share: [f64; 2]) -> [f64; 2] {
-        let ((i, s), (j, t)) = (cell_at(share[0], self.cols), cell_at(share[1], self.rows));
-        let node = |i: usize, j: usize| self.places[j * self.cols + i];
-        let [a, b, c, d] = [
-            node(i, j),
-            node(i + 1, j),
-            node(i, j + 1),
-            node(i + 1, j + 1),
+        let at = [
+            share[0] * (self.cols - 1) as f64,
+            share[1] * (self.rows - 1) as f64,
         ];
-        [0, 1]
-            .map(|k| (1.0 - t) * ((1.0 - s) * a[k] + s * b[k]) + t * ((1.0 - s) * c[k] + s * d[k]))
+        bilinear(at, [self.cols, self.rows], |i| self.places[i]).unwrap_or([f64::NAN; 2])
     }
 }

@@ -104,35 +104,31 @@ impl Homography {
         };
         let cost = |at: &SVector<f64, 4>| residuals(at).norm_squared();
         let at = robust_fit::fit(start, system, step, cost, 0.0).unwrap_or(start);
-        let camera = SheetCamera {
-            log_scale: at[0],
-            centre: [at[1], at[2]],
-        };
-        (camera, at[3])
+        (fitted_camera(&at), at[3])
     }
 
     /// Vectors in space along the flat page's width and height, per unit of flat length and up to a common factor, for
     /// the unknowns `at`: logarithms of the focal length and the ratio of sides first and last, the principal point
     /// between them.
     fn sides(&self, at: &SVector<f64, 4>) -> [Vector3<f64>; 2] {
-        let scale = at[0].exp();
-        let back = |k: usize| {
-            let [x, y, w] = [0, 1, 2].map(|i| self.matrix[(i, k)]);
-            Vector3::new((x - at[1] * w) / scale, (y - at[2] * w) / scale, w)
-        };
-        [back(0), back(1) / at[3].exp()]
+        let camera = fitted_camera(at);
+        let [across, down] = [Vector3::x(), Vector3::y()].map(|way| self.in_space(&camera, way));
+        [across, down / at[3].exp()]
+    }
+
+    /// Homogeneous coordinates of the flat page as a vector in space, up to a common factor.
+    fn in_space(&self, camera: &SheetCamera, flat: Vector3<f64>) -> Vector3<f64> {
+        let [x, y, w] = <[f64; 3]>::from(self.matrix * flat);
+        let [cx, cy] = camera.centre.map(|at| at * w);
+        let scale = camera.log_scale.exp();
+        Vector3::new((x - cx) / scale, (y - cy) / scale, w)
     }
 
     /// Makes a sheet that is the plane of the homography, with a grid of `cols` columns; None if it is not in front of
     /// the camera. `apparent` is the ratio of height to width in the photo.
     pub fn sheet(&self, cols: usize, prior: &CameraPrior, apparent: f64) -> Option<SheetGrid> {
         let (camera, log_ratio) = self.camera(prior, apparent);
-        let scale = camera.log_scale.exp();
-        let point = |[x, y]: [f64; 2]| {
-            let [px, py, w] = <[f64; 3]>::from(self.matrix * Vector3::new(x, y, 1.0));
-            let [cx, cy] = camera.centre;
-            Vector3::new((px - cx * w) / scale, (py - cy * w) / scale, w)
-        };
+        let point = |[x, y]: [f64; 2]| self.in_space(&camera, Vector3::new(x, y, 1.0));
         let rows = grid_rows(cols, log_ratio.exp());
         let unit = (point([1.0, 0.0]) - point([0.0, 0.0])).norm();
         let nodes: Vec<_> = node_shares([cols, rows])
@@ -146,6 +142,14 @@ impl Homography {
             camera,
             nodes,
         })
+    }
+}
+
+/// The camera of the unknowns of a plane.
+fn fitted_camera(at: &SVector<f64, 4>) -> SheetCamera {
+    SheetCamera {
+        log_scale: at[0],
+        centre: [at[1], at[2]],
     }
 }
 

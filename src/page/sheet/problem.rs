@@ -3,9 +3,10 @@
 
 use nalgebra::Vector3;
 
-use super::grid::SheetGrid;
+use super::grid::{GridPlace, SheetGrid};
 use super::plane::CameraPrior;
 use super::polyline::Polyline;
+use crate::math::planar::difference;
 use crate::page::robust_fit;
 
 /// A line that runs across the flat page, parallel to its upper edge: a line of text, a rule or a fold.
@@ -125,22 +126,16 @@ impl SheetProblem {
         self.visit_outline(grid, sink)?;
         let lines = self.lines.iter().chain(&self.folds);
         self.visit_lines(grid, lines.zip(levels), sink)?;
-        let prior = &self.prior;
-        let off = [
-            (grid.camera.log_scale - prior.log_scale) / prior.scale_deviation,
-            grid.camera.centre[0] / prior.centre_deviation,
-            grid.camera.centre[1] / prior.centre_deviation,
-            (grid.log_ratio - self.ratio[0]) / self.ratio[1],
+        let (prior, camera) = (&self.prior, &grid.camera);
+        let priors = [
+            (camera.log_scale - prior.log_scale, prior.scale_deviation),
+            (camera.centre[0], prior.centre_deviation),
+            (camera.centre[1], prior.centre_deviation),
+            (grid.log_ratio - self.ratio[0], self.ratio[1]),
         ];
-        let deviations = [
-            prior.scale_deviation,
-            prior.centre_deviation,
-            prior.centre_deviation,
-            self.ratio[1],
-        ];
-        for k in 0..4 {
-            let mut row = ResidualRow::new(off[k]);
-            row.globals[k] = 1.0 / deviations[k];
+        for (k, (off, deviation)) in priors.into_iter().enumerate() {
+            let mut row = ResidualRow::new(off / deviation);
+            row.globals[k] = 1.0 / deviation;
             sink(&row);
         }
         Some(())
@@ -247,13 +242,16 @@ impl SheetProblem {
         ];
         for ((start, step, count), edge) in starts.into_iter().zip(&self.edges) {
             for i in 0..count {
-                let node = start + i * step;
-                let seen = grid.camera.project(grid.nodes[node])?;
-                let near = edge.nearest(seen)?;
-                let size = self.depth * near.distance / OUTLINE_OUTLIER_DISTANCE;
-                let trust = robust_fit::weight(size).sqrt();
-                let weight = [self.weights.outline * root, trust];
-                sink(&photo_row(grid, node, near.normal, near.distance, weight));
+                let node = GridPlace::node(start + i * step);
+                let near = edge.nearest(grid.seen(&node)?)?;
+                let off = self.depth * near.distance / OUTLINE_OUTLIER_DISTANCE;
+                let weight = self.weights.outline * root;
+                sink(&photo_row(
+                    grid,
+                    &node,
+                    near.normal,
+                    [near.distance, weight, off],
+                )?);
             }
         }
         let [top, bottom] = [0, 1].map(|k| self.edges[k].points());
@@ -264,13 +262,12 @@ impl SheetProblem {
             (last + cols - 1, bottom[bottom.len() - 1]),
         ];
         for (node, corner) in corners {
-            let seen = grid.camera.project(grid.nodes[node])?;
-            let off = [seen[0] - corner[0], seen[1] - corner[1]];
-            let size = self.depth * off[0].hypot(off[1]) / OUTLINE_OUTLIER_DISTANCE;
-            let trust = robust_fit::weight(size).sqrt();
-            let weight = [2.0 * self.weights.corners * root, trust];
-            for (k, normal) in [[1.0, 0.0], [0.0, 1.0]].into_iter().enumerate() {
-                sink(&photo_row(grid, node, normal, off[k], weight));
+            let node = GridPlace::node(node);
+            let away = difference(corner, grid.seen(&node)?);
+            let off = self.depth * away[0].hypot(away[1]) / OUTLINE_OUTLIER_DISTANCE;
+            let weight = 2.0 * self.weights.corners * root;
+            for (distance, normal) in away.into_iter().zip([[1.0, 0.0], [0.0, 1.0]]) {
+                sink(&photo_row(grid, &node, normal, [distance, weight, off])?);
             }
         }
         Some(())
@@ -284,84 +281,53 @@ impl SheetProblem {
         lines: impl Iterator<Item = (&'a LevelLine, &'a f64)>,
         sink: &mut dyn FnMut(&ResidualRow),
     ) -> Option<()> {
+        let last = (grid.cols - 1) as f64;
         for (number, (line, level)) in lines.enumerate() {
-            self.visit_line(grid, line, (number, *level), sink)?;
-        }
-        Some(())
-    }
-
-    /// Calls `sink` with the residuals of one line: distances of its points in the photo from the sheet's projected line
-    /// at the given level. `level` is the line's number with its level.
-    fn visit_line(
-        &self,
-        grid: &SheetGrid,
-        line: &LevelLine,
-        (number, level): (usize, f64),
-        sink: &mut dyn FnMut(&ResidualRow),
-    ) -> Option<()> {
-        if let Some(deviation) = line.level_deviation {
-            let mut row = ResidualRow::new((level - line.level) / deviation);
-            row.level = Some((number, 1.0 / deviation));
-            sink(&row);
-        }
-        let count = grid.cols;
-        let seen: Option<Vec<_>> = (0..count)
-            .map(|i| {
-                grid.camera
-                    .project(grid.at([i as f64 / (count - 1) as f64, level]))
-            })
-            .collect();
-        let seen = Polyline::new(seen?);
-        let weight =
-            self.weights.lines * self.depth * (line.length / line.points.len() as f64).sqrt();
-        for point in &line.points {
-            let near = seen.nearest(*point)?;
-            let place = grid.place([near.position / (count - 1) as f64, level]);
-            let at = grid.sum(&place.nodes, &place.weights);
-            // The projection is at the nearest point: its distance from the traced one has the other sign.
-            let distance = -near.distance;
-            let size = self.depth * distance / LINE_OUTLIER_DISTANCE;
-            let trust = robust_fit::weight(size).sqrt();
-            let own = weight * trust;
-            let gradient = grid.camera.gradient(at, near.normal) * own;
-            let mut row = ResidualRow::new(own * distance);
-            row.trust = trust;
-            for k in 0..4 {
-                row.nodes[k] = (place.nodes[k], gradient * place.weights[k]);
+            if let Some(deviation) = line.level_deviation {
+                let mut row = ResidualRow::new((level - line.level) / deviation);
+                row.level = Some((number, 1.0 / deviation));
+                sink(&row);
             }
-            let down = grid.sum(&place.nodes, &place.derivative_down);
-            row.level = Some((number, gradient.dot(&down)));
-            let projected = grid.camera.project(at)?;
-            row.globals = camera_derivatives(grid, projected, near.normal).map(|d| d * own);
-            sink(&row);
+            let seen: Option<Vec<_>> = (0..grid.cols)
+                .map(|i| grid.seen(&grid.place([i as f64 / last, *level])))
+                .collect();
+            let seen = Polyline::new(seen?);
+            let share = line.length / line.points.len() as f64;
+            let weight = self.weights.lines * self.depth * share.sqrt();
+            for point in &line.points {
+                let near = seen.nearest(*point)?;
+                let place = grid.place([near.position / last, *level]);
+                // The projection is at the nearest point: its distance from the traced one has the other sign.
+                let off = -self.depth * near.distance / LINE_OUTLIER_DISTANCE;
+                let distance = [-near.distance, weight, off];
+                let mut row = photo_row(grid, &place, near.normal, distance)?;
+                let down = grid.sum(&place.nodes, &place.derivative_down);
+                let gradient: Vector3<f64> = row.nodes.iter().map(|(_, gradient)| gradient).sum();
+                row.level = Some((number, gradient.dot(&down)));
+                sink(&row);
+            }
         }
         Some(())
     }
 }
 
-/// Derivatives of a projected point's coordinate along an image normal by the camera's and page's unknowns, in the
-/// order of [`ResidualRow::globals`]. `seen` is the projected point.
-fn camera_derivatives(grid: &SheetGrid, seen: [f64; 2], [nx, ny]: [f64; 2]) -> [f64; 4] {
-    let [cx, cy] = grid.camera.centre;
-    [nx * (seen[0] - cx) + ny * (seen[1] - cy), nx, ny, 0.0]
-}
-
-/// Makes the residual of a projected node: its weighted distance along an image normal, with derivatives by node and
-/// camera. `weight` and `trust` are its weight and the square root of its robust weight.
+/// Makes the residual of a place of the sheet in the photo: its distance along an image normal, times a weight, with
+/// derivatives by nodes and camera. The third number, in distances from which a place is an outlier, says how much less it counts.
+/// None if the place is not in front of the camera.
 fn photo_row(
     grid: &SheetGrid,
-    node: usize,
-    normal: [f64; 2],
-    distance: f64,
-    [weight, trust]: [f64; 2],
-) -> ResidualRow {
-    let point = grid.nodes[node];
-    let weight = weight * trust;
-    let mut row = ResidualRow::new(weight * distance);
+    place: &GridPlace,
+    [nx, ny]: [f64; 2],
+    [distance, weight, off]: [f64; 3],
+) -> Option<ResidualRow> {
+    let trust = robust_fit::weight(off).sqrt();
+    let own = weight * trust;
+    let mut row = ResidualRow::new(own * distance);
     row.trust = trust;
-    row.nodes[0] = (node, grid.camera.gradient(point, normal) * weight);
-    if let Some(seen) = grid.camera.project(point) {
-        row.globals = camera_derivatives(grid, seen, normal).map(|d| d * weight);
-    }
-    row
+    let at = grid.sum(&place.nodes, &place.weights);
+    let gradient = grid.camera.gradient(at, [nx, ny]) * own;
+    row.nodes = std::array::from_fn(|k| (place.nodes[k], gradient * place.weights[k]));
+    let seen = difference(grid.camera.centre, grid.camera.project(at)?);
+    row.globals = [nx * seen[0] + ny * seen[1], nx, ny, 0.0].map(|d| d * own);
+    Some(row)
 }

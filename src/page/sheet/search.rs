@@ -55,7 +55,7 @@ const LINE_DETECTION_ROUNDS: usize = 3;
 
 /// Weights of the residuals in the fit of a sheet of smooth paper, which is firm against strain.
 /// Chosen by `benches/page.md`, Beside other ways.
-const FIRM_PAPER_WEIGHTS: SheetWeights = SheetWeights {
+pub(super) const FIRM_PAPER_WEIGHTS: SheetWeights = SheetWeights {
     isometry: 300.0,
     bending: [1.5; 2],
     outline: 350.0,

@@ -1,8 +1,9 @@
 //! Baselines of bands of ink, and the test which of them are lines of text: they are smooth.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::SVector;
 
 use super::bands::{Band, MIN_BAND_STRIPS, SmoothedProfiles};
+use crate::math::least_squares::LeastSquares;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
 /// Baseline of a line of text, in pixels of the ink image.
@@ -42,8 +43,7 @@ impl Baseline {
         if all.len() < MIN_BAND_STRIPS {
             return None;
         }
-        let curve = fit_robust(&all, 4.min(all.len() / 6).max(1))?;
-        let off: Vec<f64> = all.iter().map(|p| (p[1] - curve.at(p[0])).abs()).collect();
+        let off = distances_from_curve(&all, 4.min(all.len() / 6).max(1))?;
         let scatter = MAD_TO_SIGMA * median(&mut off.clone())?;
         let near = (2.5 * scatter).max(0.3);
         let points: Vec<[f64; 2]> = (all.iter().zip(&off))
@@ -71,65 +71,25 @@ impl Baseline {
     }
 }
 
-/// A polynomial over an interval, as a Legendre series.
-struct Polynomial {
-    from: f64,
-    span: f64,
-    coefficients: DVector<f64>,
-}
-
-impl Polynomial {
-    /// Evaluates the polynomial at `x`.
-    fn at(&self, x: f64) -> f64 {
-        let degree = self.coefficients.len() - 1;
-        let values = legendre_values(degree, (x - self.from) / self.span);
-        values
-            .iter()
-            .zip(&self.coefficients)
-            .map(|(p, c)| p * c)
-            .sum()
-    }
-}
-
-/// Fits the polynomial with the least sum of absolute distances from points, by iteratively reweighted least squares.
-/// None if there are no points.
-fn fit_robust(points: &[[f64; 2]], degree: usize) -> Option<Polynomial> {
-    let from = points.first()?[0];
-    let span = (points.last()?[0] - from).max(1e-9);
-    let rows: Vec<DVector<f64>> = (points.iter())
-        .map(|p| DVector::from_vec(legendre_values(degree, (p[0] - from) / span)))
-        .collect();
-    let mut weights = vec![1.0; points.len()];
-    let mut found = None;
+/// Fits the polynomial of a degree of at most 5 with the least sum of absolute distances from points, by iteratively reweighted
+/// least squares; returns the distances. None if there are no points.
+fn distances_from_curve(points: &[[f64; 2]], degree: usize) -> Option<Vec<f64>> {
+    let [from, to] = [points.first()?[0], points.last()?[0]];
+    let powers = |p: &[f64; 2]| {
+        let at = 2.0 * (p[0] - from) / (to - from).max(1e-9) - 1.0;
+        SVector::<f64, 6>::from_fn(|k, _| if k > degree { 0.0 } else { at.powi(k as i32) })
+    };
+    let rows: Vec<SVector<f64, 6>> = points.iter().map(powers).collect();
+    let mut distances = vec![1.0; points.len()];
     for _ in 0..12 {
-        let mut normal = DMatrix::<f64>::identity(degree + 1, degree + 1) * 1e-9;
-        let mut right = DVector::<f64>::zeros(degree + 1);
-        for ((row, point), weight) in rows.iter().zip(points).zip(&weights) {
-            normal.ger(*weight, row, row, 1.0);
-            right += row * (*weight * point[1]);
+        let mut fit = LeastSquares::<6>::with_ridge([1e-9; 6]);
+        for ((row, point), off) in rows.iter().zip(points).zip(&distances) {
+            fit.add(row, [point[1]], 1.0 / f64::max(*off, 0.05));
         }
-        let polynomial = Polynomial {
-            from,
-            span,
-            coefficients: normal.cholesky()?.solve(&right),
-        };
-        for (weight, p) in weights.iter_mut().zip(points) {
-            *weight = 1.0 / (p[1] - polynomial.at(p[0])).abs().max(0.05);
+        let curve = fit.solve()?;
+        for ((row, point), off) in rows.iter().zip(points).zip(&mut distances) {
+            *off = (point[1] - row.dot(&curve)).abs();
         }
-        found = Some(polynomial);
     }
-    found
-}
-
-/// Evaluates the Legendre polynomials of degrees 0 to `degree`, scaled to the interval from 0 to 1, at a place `at` in
-/// it.
-fn legendre_values(degree: usize, at: f64) -> Vec<f64> {
-    let x = 2.0 * at - 1.0;
-    let mut values = vec![1.0];
-    for k in 0..degree {
-        let before = if k > 0 { values[k - 1] } else { 0.0 };
-        let order = k as f64;
-        values.push(((2.0 * order + 1.0) * x * values[k] - order * before) / (order + 1.0));
-    }
-    values
+    Some(distances)
 }

@@ -1,6 +1,6 @@
 //! Brightness of a photo, reduced by averages of square blocks of pixels to about the resolution of the ink image.
 
-use crate::dewarp::{BoxReduction, Photo};
+use crate::dewarp::{BoxReduction, Photo, bilinear};
 use crate::math::lanes;
 
 /// Brightness of a photo at a reduced resolution, from 0 to 255; NaN where the photo is transparent. Places are given in
@@ -34,17 +34,10 @@ impl GreyPhoto {
     pub fn at(&self, place: [f64; 2]) -> f32 {
         let half = 0.5 * (self.block as f64 - 1.0);
         let [x, y] = place.map(|at| (at - half) / self.block as f64);
-        let [last_x, last_y] = [self.width, self.height].map(|n| n as f64 - 1.0);
-        if !(x >= 0.0 && y >= 0.0 && x <= last_x && y <= last_y) {
-            return f32::NAN;
-        }
-        let [col, row] = [x as usize, y as usize];
-        let [s, t] = [lanes::single(x - col as f64), lanes::single(y - row as f64)];
-        let right = usize::from(col + 1 < self.width);
-        let here = row * self.width + col;
-        let below = here + if row + 1 < self.height { self.width } else { 0 };
-        let [a, b, c, d] = [here, here + right, below, below + right].map(|i| self.data[i]);
-        (1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d)
+        bilinear([x, y], [self.width, self.height], |i| {
+            [f64::from(self.data[i])]
+        })
+        .map_or(f32::NAN, |[value]| value as f32)
     }
 }
 

@@ -1,6 +1,9 @@
 //! Ink image of a page: the page's darkness relative to its paper, flattened by the surface that was found from the
 //! edges.
 
+use crate::dewarp::bilinear;
+use crate::page::outline::square_extreme;
+
 /// Ink image: darkness of each pixel of the flat page relative to the paper around it, from 0 to 1.
 pub(super) struct InkImage {
     pub width: usize,
@@ -65,43 +68,22 @@ impl PaperBrightness {
         let mut levels = Vec::with_capacity(cols * rows);
         for block in 0..cols * rows {
             let [x, y] = [block % cols * side, block / cols * side];
-            let mut counts = [0u32; 256];
-            for row in y..(y + side).min(height) {
-                for value in &data[row * width + x..row * width + (x + side).min(width)] {
-                    if value.is_finite() {
-                        counts[*value as usize] += 1;
-                    }
-                }
-            }
-            let all: u32 = counts.iter().sum();
-            let mut rest = f64::from(all) * (1.0 - PAPER_QUANTILE);
-            let level = (0..256).rev().find(|level| {
-                rest -= f64::from(counts[*level]);
-                rest < 0.0
-            });
-            levels.push(match level {
-                Some(level) => level as f32 + 0.5,
-                None => f32::NAN,
+            let mut bright: Vec<f32> = (y..(y + side).min(height))
+                .flat_map(|row| &data[row * width..][x..(x + side).min(width)])
+                .copied()
+                .filter(|value| value.is_finite())
+                .collect();
+            let darker = (PAPER_QUANTILE * bright.len() as f64) as usize;
+            let paper = darker.min(bright.len().saturating_sub(1));
+            levels.push(match bright.is_empty() {
+                true => f32::NAN,
+                false => *bright.select_nth_unstable_by(paper, f32::total_cmp).1,
             });
         }
-        // Blocks without pixels, at the margins, have the brightness of those beside them.
-        for _ in 0..2 {
-            let before = levels.clone();
-            for block in 0..cols * rows {
-                if before[block].is_nan() {
-                    let [x, y] = [block % cols, block / cols];
-                    let near =
-                        |x: usize, y: usize| before[y.min(rows - 1) * cols + x.min(cols - 1)];
-                    levels[block] = [
-                        near(x + 1, y),
-                        near(x, y + 1),
-                        near(x.saturating_sub(1), y),
-                        near(x, y.saturating_sub(1)),
-                    ]
-                    .into_iter()
-                    .fold(f32::NAN, f32::max);
-                }
-            }
+        // Blocks without pixels, at the margins, have the brightness of those near them.
+        let near = square_extreme(&levels, cols, 2, f32::max);
+        for (level, near) in levels.iter_mut().zip(near) {
+            *level = if level.is_nan() { near } else { *level };
         }
         PaperBrightness {
             side,
@@ -113,17 +95,11 @@ impl PaperBrightness {
 
     /// Interpolates the paper's brightness at a pixel, bilinearly between the centres of blocks.
     fn at(&self, pixel: [usize; 2]) -> f32 {
-        let sides = [self.cols, self.rows];
-        let [(x, s), (y, t)] = [0, 1].map(|k| {
-            let at = ((pixel[k] as f32 + 0.5) / self.side as f32 - 0.5)
-                .clamp(0.0, (sides[k] - 1) as f32);
-            let low = (at as usize).min(sides[k].saturating_sub(2));
-            (low, at - low as f32)
+        let size = [self.cols, self.rows];
+        let at = [0, 1].map(|k| {
+            let at = (pixel[k] as f64 + 0.5) / self.side as f64 - 0.5;
+            at.clamp(0.0, (size[k] - 1) as f64)
         });
-        let level = |x: usize, y: usize| {
-            self.levels[y.min(self.rows - 1) * self.cols + x.min(self.cols - 1)]
-        };
-        (1.0 - t) * ((1.0 - s) * level(x, y) + s * level(x + 1, y))
-            + t * ((1.0 - s) * level(x, y + 1) + s * level(x + 1, y + 1))
+        bilinear(at, size, |i| [f64::from(self.levels[i])]).map_or(f32::NAN, |[level]| level as f32)
     }
 }

@@ -6,7 +6,8 @@
 #[non_exhaustive]
 pub enum Trace {
     /// Points on the edge, any number at any distances; the first and the last one are
-    /// corners. The edge is smooth between points, not straight.
+    /// corners. The edge is smooth between points, not straight, and not seen between two that are more than eight times as
+    /// far apart as others.
     Points(Vec<[f64; 2]>),
     /// Cubic Bézier curves that follow each other: 4, 7, 10 … control points.
     Beziers(Vec<[f64; 2]>),

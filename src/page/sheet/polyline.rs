@@ -1,11 +1,18 @@
 //! Polylines in a photo: nearest points and normals of a page's traced edges.
 
-use crate::math::planar::principal_line;
+use crate::math::planar::{distance, principal_line};
+use crate::math::statistics::median;
+
+/// Distance between two points of a trace, as a multiple of the median one, above which the edge is not seen between them.
+/// Its row: `benches/outline.md`, Covered corners.
+const MAX_SPACING_RATIO: f64 = 8.0;
 
 /// A curve of straight segments.
 #[derive(Debug, Clone)]
 pub(super) struct Polyline {
     points: Vec<[f64; 2]>,
+    /// First and last position of each stretch in which the curve is not seen.
+    gaps: Vec<[f64; 2]>,
 }
 
 /// Nearest point on a polyline to a given point.
@@ -23,17 +30,42 @@ impl Polyline {
     /// Makes a polyline of at least two points.
     pub fn new(points: Vec<[f64; 2]>) -> Self {
         debug_assert!(points.len() > 1);
-        Polyline { points }
+        Polyline {
+            points,
+            gaps: Vec::new(),
+        }
     }
 
-    /// Resamples a traced curve to segments of equal length.
+    /// Resamples a traced curve to segments of equal length; it is not seen where its points are far apart.
     pub fn resampled(points: &[[f64; 2]], segments: usize) -> Self {
-        Polyline::new(equidistant(points, segments + 1).0)
+        let (found, total) = equidistant(points, segments + 1);
+        let spacings: Vec<f64> = points.windows(2).map(|p| distance(p[0], p[1])).collect();
+        let usual = median(&mut spacings.clone()).unwrap_or_default();
+        let (mut end, mut gaps) = (0.0, Vec::new());
+        for (k, spacing) in spacings.iter().enumerate() {
+            let start = end;
+            end += spacing;
+            // Curves have points that are far apart, too, but not one pair alone.
+            let beside = [k.wrapping_sub(1), k + 1].map(|j| spacings.get(j).copied());
+            let others = beside.into_iter().flatten().fold(usual, f64::max);
+            if *spacing > MAX_SPACING_RATIO * others {
+                gaps.push([start, end].map(|at| at / total * segments as f64));
+            }
+        }
+        Polyline {
+            gaps,
+            ..Polyline::new(found)
+        }
     }
 
     /// Vertices of the polyline.
     pub fn points(&self) -> &[[f64; 2]] {
         &self.points
+    }
+
+    /// Whether the curve is seen at a position: the index of a segment plus the share of the segment before it.
+    pub fn is_seen(&self, at: f64) -> bool {
+        (self.gaps.iter()).all(|[from, to]| at < *from || at > *to)
     }
 
     /// Finds the point of the polyline that is nearest to the point `at`; beyond the ends, the distance is that from
@@ -70,8 +102,9 @@ impl Polyline {
     /// pages are often rounded.
     pub fn line(&self) -> [[f64; 2]; 2] {
         let count = self.points.len();
-        let inner = &self.points[count / 20..count - count / 20];
-        let (mean, [cos, sin]) = principal_line(inner);
+        let inner = (count / 20..count - count / 20).filter(|i| self.is_seen(*i as f64));
+        let inner: Vec<[f64; 2]> = inner.map(|i| self.points[i]).collect();
+        let (mean, [cos, sin]) = principal_line(&inner);
         [mean, [mean[0] + cos, mean[1] + sin]]
     }
 }
@@ -100,4 +133,33 @@ pub(super) fn equidistant<const N: usize>(
         })
         .collect();
     (resampled, total)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_edge_is_not_seen_where_two_of_its_points_are_far_apart() {
+        let line = |places: &[i32]| {
+            let points: Vec<[f64; 2]> = places.iter().map(|x| [f64::from(*x), 0.0]).collect();
+            Polyline::resampled(&points, 30)
+        };
+        let seen_at = |line: &Polyline, share: f64| line.is_seen(30.0 * share);
+        let inside = line(&[(0..100).collect::<Vec<_>>(), (200..=300).collect()].concat());
+        assert_eq!(
+            [0.3, 0.5, 0.7].map(|at| seen_at(&inside, at)),
+            [true, false, true]
+        );
+        let end = line(&[vec![0], (100..=300).collect()].concat());
+        assert_eq!(
+            [0.0, 0.2, 0.5].map(|at| seen_at(&end, at)),
+            [false, false, true]
+        );
+        // Few points are all that is known, and a long curve after short ones has several.
+        for places in [&[0, 10, 300][..], &[0, 1, 2, 3, 4, 5, 6, 100, 200, 300]] {
+            let whole = line(places);
+            assert!((0..=30).all(|at| whole.is_seen(f64::from(at))));
+        }
+    }
 }

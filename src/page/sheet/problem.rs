@@ -244,6 +244,9 @@ impl SheetProblem {
             for i in 0..count {
                 let node = GridPlace::node(start + i * step);
                 let near = edge.nearest(grid.seen(&node)?)?;
+                if !edge.is_seen(near.position) {
+                    continue;
+                }
                 let off = self.depth * near.distance / OUTLINE_OUTLIER_DISTANCE;
                 let weight = self.weights.outline * root;
                 sink(&photo_row(

@@ -1,6 +1,6 @@
 //! Solids of sheet metal: two parallel skins at a constant distance, and the rim between them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::Matrix3;
 
@@ -22,8 +22,8 @@ const MAX_OPPOSITE_COSINE: f64 = -0.9;
 /// give.
 const MAX_THICKNESS_SHARE: f64 = 0.1;
 
-/// Maximum mean cosine of the angle between a skin and the rim along it: a blank is cut straight through. No table chose it: 0 where
-/// edges are sharp, 0.7 where they are chamfered.
+/// Maximum mean cosine of the angle between the larger skin, or both, and the rim along them: a blank is cut straight through. No table
+/// chose it: 0 where edges are sharp or slanted alike on both skins, 0.7 where they are chamfered.
 const MAX_MEAN_LEAN: f64 = 0.1;
 
 /// Maximum product of the numbers of facets and triangles: some seconds of search in wasm.
@@ -118,7 +118,11 @@ fn skin(
     let Some(thickness) = median.map(|(depth, _)| *depth) else {
         return Ok(None);
     };
-    let is_skin = |facet: u32| depths[facet as usize].is_some_and(|d| is_alike(d.depth, thickness));
+    let depths: Vec<Option<Depth>> = (depths.iter())
+        .map(|own| own.filter(|own| is_alike(own.depth, thickness)))
+        .collect();
+    let rim = rim(solid, &depths);
+    let is_skin = |facet: u32| depths[facet as usize].is_some() && !rim[facet as usize];
     let mut sets = UnionFind::new("facets", solid.areas.len())?;
     for side in solid.inner_sides() {
         let [a, b] = [side, solid.twins[side as usize]].map(|side| solid.facet(side));
@@ -153,14 +157,34 @@ fn skin(
     }
     let [border, other] = [&own, &other].map(|facets| Border::new(solid, facets));
     let (border, other) = (border?, other?);
-    let is_sheet = border.lines == other.lines && border.lean <= MAX_MEAN_LEAN;
+    let is_straight = |leaning: f64, length: f64| leaning.abs() <= MAX_MEAN_LEAN * length;
+    let is_cut = is_straight(border.leaning, border.length)
+        || is_straight(border.leaning + other.leaning, border.length + other.length);
+    let is_sheet = border.lines == other.lines && is_cut;
     Ok(is_sheet.then_some((thickness, own)))
 }
 
-/// The border of a skin: the number of its closed lines, and the mean cosine of the angle between the skin and the rim along it.
+/// Which facets are parts of the rim: they meet a larger facet and the one below it.
+fn rim(solid: &Polyhedron, depths: &[Option<Depth>]) -> Vec<bool> {
+    let mut around: Vec<BTreeSet<u32>> = vec![BTreeSet::new(); solid.areas.len()];
+    for side in solid.inner_sides() {
+        let [a, b] = [side, solid.twins[side as usize]].map(|side| solid.facet(side));
+        around[a as usize].insert(b);
+        around[b as usize].insert(a);
+    }
+    let is_rim = |(own, around): (&f64, &BTreeSet<u32>)| {
+        let mut larger = around.iter().filter(|f| solid.areas[**f as usize] > *own);
+        larger.any(|f| depths[*f as usize].is_some_and(|depth| around.contains(&depth.below)))
+    };
+    solid.areas.iter().zip(&around).map(is_rim).collect()
+}
+
+/// The border of a skin: the number of its closed lines, their length, and the integral of the cosine of the angle between the skin and
+/// the rim along them.
 struct Border {
     lines: usize,
-    lean: f64,
+    length: f64,
+    leaning: f64,
 }
 
 impl Border {
@@ -176,7 +200,7 @@ impl Border {
                 lines.union(a, b);
                 on_border.push(a);
                 length += solid.length(side);
-                leaning += solid.length(side) * solid.angle(side).cos().abs();
+                leaning += solid.length(side) * solid.angle(side).cos();
             }
         }
         let mut found: Vec<u32> = on_border.into_iter().map(|v| lines.find(v)).collect();
@@ -184,7 +208,8 @@ impl Border {
         found.dedup();
         Ok(Border {
             lines: found.len(),
-            lean: leaning / length.max(f64::MIN_POSITIVE),
+            length,
+            leaning,
         })
     }
 }

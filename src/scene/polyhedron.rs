@@ -164,6 +164,19 @@ impl Polyhedron {
         self.triangles[triangle].map(|v| self.places[v as usize])
     }
 
+    /// The largest triangle of each facet.
+    pub(crate) fn largest_triangles(&self) -> Vec<usize> {
+        let mut largest = vec![(-1.0, 0); self.areas.len()];
+        for (t, facet) in self.facets.iter().enumerate() {
+            let [a, b, c] = self.corners(t);
+            let size = (b - a).cross(&(c - a)).norm();
+            if size > largest[*facet as usize].0 {
+                largest[*facet as usize] = (size, t);
+            }
+        }
+        largest.into_iter().map(|(_, t)| t).collect()
+    }
+
     pub(crate) fn ends(&self, half_edge: u32) -> [Place; 2] {
         half_edge_ends(&self.triangles, half_edge).map(|v| self.places[v as usize])
     }

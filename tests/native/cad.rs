@@ -15,6 +15,11 @@ fn pattern_of(mesh: &Mesh) -> (Pattern, bool) {
     }
 }
 
+fn length_of(line: &[[f64; 2]]) -> f64 {
+    let side = |pair: &[[f64; 2]]| f64::hypot(pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]);
+    line.windows(2).map(side).sum()
+}
+
 /// The bends of all sheets: number of folds, angle and radius of each.
 fn bends_of(pattern: &Pattern) -> Vec<(usize, f64, f64)> {
     let mut found: Vec<(usize, f64, f64)> = Vec::new();
@@ -368,6 +373,128 @@ fn an_open_cone_is_a_sector() {
     assert_eq!(pattern.sheets.len(), 1);
     let area = PI * (30.0 + 10.0) * 40.0 * f64::hypot(1.0, 0.5);
     assert!((pattern.sheets[0].area / area - 1.0).abs() < 2e-3);
+}
+
+/// Bars between holes that are as wide as the plate is thick have parallel sides at its thickness, too.
+#[test]
+fn a_plate_with_bars_as_wide_as_it_is_thick_is_sheet_metal() {
+    let [xs, ys] = [
+        [0.0, 10.0, 28.0, 30.0, 48.0, 60.0],
+        [0.0, 8.0, 30.0, 32.0, 54.0, 60.0],
+    ];
+    let is_hole = |i: usize, j: usize| i % 2 == 1 && j % 2 == 1;
+    let at = |i: usize, j: usize, top: usize| (2 * (6 * i + j) + top) as u32;
+    let mut points = Vec::new();
+    for x in xs {
+        points.extend(ys.iter().flat_map(|y| [[x, *y, 0.0], [x, *y, 2.0]]));
+    }
+    let mut triangles = Vec::new();
+    let mut quad = |[a, b, c, d]: [u32; 4]| triangles.extend([[a, b, c], [a, c, d]]);
+    for i in 0..5 {
+        for j in 0..5 {
+            if is_hole(i, j) {
+                continue;
+            }
+            let ring = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+            quad(ring.map(|(i, j)| at(i, j, 1)));
+            quad([3, 2, 1, 0].map(|k: usize| at(ring[k].0, ring[k].1, 0)));
+            let beside = [
+                (i, j.wrapping_sub(1)),
+                (i + 1, j),
+                (i, j + 1),
+                (i.wrapping_sub(1), j),
+            ];
+            for (k, (i, j)) in beside.into_iter().enumerate() {
+                if i > 4 || j > 4 || is_hole(i, j) {
+                    let [a, b] = [ring[k], ring[(k + 1) % 4]];
+                    quad([
+                        at(a.0, a.1, 0),
+                        at(b.0, b.1, 0),
+                        at(b.0, b.1, 1),
+                        at(a.0, a.1, 1),
+                    ]);
+                }
+            }
+        }
+    }
+    let metal = sheet_metal(&Mesh::new(points, triangles).unwrap())
+        .unwrap()
+        .unwrap();
+    assert!((metal.thickness - 2.0).abs() < 1e-9);
+    let (pattern, _) = pattern_of(&metal.skin);
+    let area: f64 = pattern.sheets.iter().map(|sheet| sheet.area).sum();
+    assert!((area - (60.0 * 60.0 - 4.0 * 18.0 * 22.0)).abs() < 1e-6);
+}
+
+/// The rims of a funnel are level, and its walls are not upright.
+#[test]
+fn a_funnel_with_level_rims_is_sheet_metal() {
+    let wide = 2.0 * f64::hypot(1.0, 0.5);
+    let corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+    let mut points = Vec::new();
+    for (half, z) in [
+        (50.0, 0.0),
+        (20.0, 60.0),
+        (50.0 - wide, 0.0),
+        (20.0 - wide, 60.0),
+    ] {
+        points.extend(corners.map(|[x, y]| [half * x, half * y, z]));
+    }
+    let mut triangles = Vec::new();
+    let mut quad = |[a, b, c, d]: [u32; 4]| triangles.extend([[a, b, c], [a, c, d]]);
+    for k in 0..4 {
+        let next = (k + 1) % 4;
+        for [low, high] in [[0, 4], [4, 12], [12, 8], [8, 0]] {
+            quad([low + k, low + next, high + next, high + k]);
+        }
+    }
+    let metal = sheet_metal(&Mesh::new(points, triangles).unwrap())
+        .unwrap()
+        .unwrap();
+    assert!((metal.thickness - 2.0).abs() < 1e-9);
+    assert_eq!(metal.skin.triangles().len(), 8);
+}
+
+/// A wall swept along a curve that turns both ways, with a row of vertices between its rims that are on rulings of their own.
+#[test]
+fn a_wall_of_any_profile_is_folded_along_its_rulings() {
+    const COLUMNS: u32 = 40;
+    let at = |k: f64, high: f64| [2.0 * k, 10.0 * (k / 6.0).sin(), high];
+    let mut points = Vec::new();
+    points.extend((0..=COLUMNS).map(|k| at(f64::from(k), 0.0)));
+    points.extend((0..=COLUMNS).map(|k| at(f64::from(k), 30.0)));
+    points.extend((0..COLUMNS).map(|k| at(f64::from(k) + 0.4, 11.0)));
+    let [top, middle] = [COLUMNS + 1, 2 * COLUMNS + 2];
+    let mut triangles = vec![
+        [0, middle, top],
+        [COLUMNS, top + COLUMNS, middle + COLUMNS - 1],
+    ];
+    for k in 0..COLUMNS {
+        triangles.push([k, k + 1, middle + k]);
+        triangles.push([top + k + 1, top + k, middle + k]);
+        if k + 1 < COLUMNS {
+            triangles.push([k + 1, middle + k + 1, middle + k]);
+            triangles.push([top + k + 1, middle + k, middle + k + 1]);
+        }
+    }
+    let length: f64 = (0..COLUMNS as usize)
+        .map(|k| {
+            f64::hypot(
+                points[k + 1][0] - points[k][0],
+                points[k + 1][1] - points[k][1],
+            )
+        })
+        .sum();
+    let (pattern, is_divided) = pattern_of(&Mesh::new(points, triangles).unwrap());
+    assert!(is_divided);
+    let [sheet] = &pattern.sheets[..] else {
+        panic!("{} sheets", pattern.sheets.len());
+    };
+    assert!((sheet.area / (30.0 * length) - 1.0).abs() < 1e-9);
+    assert_eq!(sheet.folds.len(), COLUMNS as usize - 1);
+    for fold in &sheet.folds {
+        assert!((fold.seam.angle < 0.4) && (length_of(&fold.points) - 30.0).abs() < 1e-9);
+    }
 }
 
 /// A hole divides the lines of a bend, and its edges move with the sheet.

@@ -14,7 +14,7 @@ pub enum MeshKind {
     Faces,
     /// The vertices of the mesh have noise about flat faces.
     NoisyFaces(FoundFaces),
-    /// The vertices of the mesh are exact, and lie on flat faces and bends that are parts of cylinders and circular cones.
+    /// The vertices of the mesh are exact, and lie on flat faces, walls of any profile, cylinders and circular cones.
     Bends(FoundFaces),
     /// The vertices of the mesh are exact, those of a smooth surface.
     Surface,

@@ -223,17 +223,8 @@ struct Depth {
 
 /// Depth of the solid below the middle of each facet's largest triangle, where a parallel face ends it.
 fn depths(solid: &Polyhedron) -> Vec<Option<Depth>> {
-    let mut largest: Vec<Option<(f64, Place)>> = vec![None; solid.areas.len()];
-    for (t, facet) in solid.facets.iter().enumerate() {
-        let [a, b, c] = solid.corners(t);
-        let area = (b - a).cross(&(c - a)).norm();
-        let best = &mut largest[*facet as usize];
-        if best.is_none_or(|(most, _)| area > most) {
-            *best = Some((area, (a + b + c) / 3.0));
-        }
-    }
-    let depth = |(facet, largest): (usize, &Option<(f64, Place)>)| {
-        let (_, from) = (*largest)?;
+    let depth = |(facet, largest): (usize, usize)| {
+        let from = solid.corners(largest).iter().sum::<Place>() / 3.0;
         let down = -solid.normals[facet];
         let hits = (0..solid.triangles.len()).filter(|t| solid.facets[*t] as usize != facet);
         let hits = hits.filter_map(|t| Some((distance_along(from, down, solid.corners(t))?, t)));
@@ -242,7 +233,8 @@ fn depths(solid: &Polyhedron) -> Vec<Option<Depth>> {
         let cosine = solid.normals[below as usize].dot(&solid.normals[facet]);
         (cosine <= MAX_OPPOSITE_COSINE).then_some(Depth { depth, below })
     };
-    largest.iter().enumerate().map(depth).collect()
+    let largest = solid.largest_triangles();
+    largest.into_iter().enumerate().map(depth).collect()
 }
 
 /// Distance from a point to a triangle along a direction, if it is met.

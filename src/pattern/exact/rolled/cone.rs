@@ -1,7 +1,6 @@
 //! Circular cones and cylinders: the one nearest to points, and how they are laid flat.
 
-use nalgebra::Matrix3;
-
+use super::surface::Surface;
 use crate::math::least_squares::LeastSquares;
 use crate::math::planar::Point2;
 use crate::math::symmetric_eigen::symmetric_eigen3;
@@ -10,19 +9,33 @@ use crate::scene::polyhedron::Place;
 /// Number of steps in which a cylinder is found by Gauss and Newton. `benches/patterns.md` has what others give.
 const MAX_FIT_STEPS: usize = 12;
 
+/// The direction along which normals, as long as their weights, are alike: across which they differ least from the usual one.
+pub(super) fn least_normal(normals: &[Place], usual: Place) -> Place {
+    let spread = normals.iter().map(|n| {
+        let size = n.norm();
+        let off = n / size.max(f64::MIN_POSITIVE) - usual;
+        off * off.transpose() * size
+    });
+    let [.., (_, along)] = symmetric_eigen3(spread.sum());
+    along
+}
+
 /// A circular cone, or a cylinder: a point of its axis, the direction of the axis and two across, all right-handed, the radius at the
 /// point, and how much the radius grows along the axis: 0 for a cylinder.
 pub(super) struct Cone {
     centre: Place,
     across: [Place; 2],
     along: Place,
-    pub radius: f64,
+    radius: f64,
     slope: f64,
 }
 
-impl Cone {
-    /// Angle around the axis, height along it, and distance from the surface.
-    pub(super) fn coordinates(&self, place: &Place) -> [f64; 3] {
+impl Surface for Cone {
+    fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    fn coordinates(&self, place: &Place) -> [f64; 3] {
         let off = place - self.centre;
         let [x, y] = self.across.map(|axis| axis.dot(&off));
         let high = self.along.dot(&off);
@@ -30,42 +43,30 @@ impl Cone {
         [y.atan2(x), high, beyond / self.slope.hypot(1.0)]
     }
 
-    /// Angle around the axis of a direction.
-    pub(super) fn angle(&self, direction: &Place) -> f64 {
+    fn angle(&self, direction: &Place) -> f64 {
         let [x, y] = self.across.map(|axis| axis.dot(direction));
         y.atan2(x)
     }
 
-    /// Unit vector at an angle, away from the axis.
-    fn outward(&self, angle: f64) -> Place {
-        self.across[0] * angle.cos() + self.across[1] * angle.sin()
-    }
-
-    /// Unit normal at an angle.
-    pub(super) fn normal(&self, angle: f64) -> Place {
+    fn normal(&self, angle: f64) -> Place {
         (self.outward(angle) - self.along * self.slope) / self.slope.hypot(1.0)
     }
 
-    /// Unit vector along the ruling at an angle.
-    pub(super) fn ruling(&self, angle: f64) -> Place {
+    fn ruling(&self, angle: f64) -> Place {
         (self.along + self.outward(angle) * self.slope) / self.slope.hypot(1.0)
     }
 
-    /// The place at an angle and a height.
-    pub(super) fn place(&self, [angle, high]: [f64; 2]) -> Place {
+    fn place(&self, [angle, high]: [f64; 2]) -> Place {
         let out = self.outward(angle) * (self.radius + self.slope * high);
         self.centre + out + self.along * high
     }
 
-    /// Whether a place is the tip, where all rulings meet.
-    pub(super) fn is_tip(&self, place: &Place, near: f64) -> bool {
+    fn is_tip(&self, place: &Place, near: f64) -> bool {
         let [_, high, _] = self.coordinates(place);
         self.slope != 0.0 && (self.radius + self.slope * high).abs() <= near
     }
 
-    /// Position of a point when the surface is laid flat, as seen from outside: rulings along the second axis at the angle 0, where that
-    /// of the height 0 is the origin.
-    pub(super) fn flat(&self, [angle, high]: [f64; 2]) -> Point2 {
+    fn flat(&self, [angle, high]: [f64; 2]) -> Point2 {
         if self.slope == 0.0 {
             return Point2::new(self.radius * angle, high);
         }
@@ -76,9 +77,7 @@ impl Cone {
         Point2::new(from * sin, high * long - from * (1.0 - cos))
     }
 
-    /// Angle and height of a point of the plane that touches the surface at an angle, rolled onto it; `from` is where it lies from the
-    /// ruling's point at the height 0.
-    pub(super) fn rolled(&self, touch: f64, from: Place) -> [f64; 2] {
+    fn rolled(&self, touch: f64, from: Place) -> [f64; 2] {
         let aside = self.along.cross(&self.outward(touch)).dot(&from);
         if self.slope == 0.0 {
             return [touch + aside / self.radius, self.along.dot(&from)];
@@ -91,11 +90,21 @@ impl Cone {
         [touch + turned, (away - tip) / long]
     }
 
-    /// Height at which the straight line between two points of the flat surface is at an angle.
-    pub(super) fn crossing(&self, line: f64, [from, to]: [[f64; 2]; 2]) -> f64 {
+    fn crossing(&self, line: f64, [from, to]: [[f64; 2]; 2]) -> f64 {
         let [p, q] = [from, to].map(|[angle, high]| self.flat([angle - line, high]));
         let at = p + (q - p) * (p.re / (p.re - q.re));
         at.im / self.slope.hypot(1.0)
+    }
+
+    fn edges(&self) -> Option<&[f64]> {
+        None
+    }
+}
+
+impl Cone {
+    /// Unit vector at an angle, away from the axis.
+    fn outward(&self, angle: f64) -> Place {
+        self.across[0] * angle.cos() + self.across[1] * angle.sin()
     }
 
     /// The cone or cylinder nearest to points whose triangles have these normals, as long as their areas.
@@ -105,14 +114,7 @@ impl Cone {
             true => normals.iter().sum::<Place>() / all,
             false => Place::zeros(),
         };
-        let spread: Matrix3<f64> = (normals.iter())
-            .map(|n| {
-                let size = n.norm();
-                let off = n / size.max(f64::MIN_POSITIVE) - usual;
-                off * off.transpose() * (size / all)
-            })
-            .sum();
-        let [.., (_, mut along)] = symmetric_eigen3(spread);
+        let mut along = least_normal(normals, usual);
         let mean = points.iter().sum::<Place>() / points.len() as f64;
         let mut found: Option<Cone> = None;
         for _ in 0..MAX_FIT_STEPS {

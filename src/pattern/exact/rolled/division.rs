@@ -16,6 +16,8 @@ pub(super) struct Division<'a> {
     solid: &'a Polyhedron,
     places: Vec<Place>,
     faces: KnownFaces,
+    /// The largest triangle of each facet.
+    largest: Vec<usize>,
     /// Whether each triangle belongs to a bend that is divided.
     is_divided: Vec<bool>,
     /// Vertices at which lines of bends cross edges, from the lower vertex of the edge on.
@@ -91,6 +93,7 @@ impl<'a> Division<'a> {
                 normals: solid.normals.clone(),
                 ..KnownFaces::default()
             },
+            largest: solid.largest_triangles(),
             is_divided: vec![false; solid.triangles.len()],
             crossings: FxHashMap::default(),
         }
@@ -116,12 +119,14 @@ impl<'a> Division<'a> {
                 return None;
             }
         }
-        let near = tolerance(solid) / surface.radius.abs();
-        let lines = Lines::new(
-            self.rim_angles(&corners),
-            (!roll.is_ring).then_some(ends),
-            near,
-        );
+        let near = tolerance(solid) / surface.radius().abs();
+        let lines = match surface.edges() {
+            Some(edges) => Lines::at(edges.to_vec(), roll.is_ring),
+            None => {
+                let between = (!roll.is_ring).then_some(ends);
+                Lines::new(self.rim_angles(&corners), between, near)
+            }
+        };
         // Points next to a line lie on it.
         for angle in corners.at.values_mut().filter_map(|at| at.0.as_mut()) {
             *angle = lines.snapped(*angle, near);
@@ -139,7 +144,7 @@ impl<'a> Division<'a> {
             .into_iter()
             .filter(|_| !roll.is_ring)
             .filter_map(|(low, high, face)| Some(([low, high], face?)))
-            .map(|(between, face)| (between, face, self.largest_triangle(face)))
+            .map(|(between, face)| (between, face, self.largest[face as usize]))
             .collect();
         let (mut laid, mut whole) = (0.0, 0.0);
         for t in roll.triangles.iter().copied() {
@@ -268,17 +273,6 @@ impl<'a> Division<'a> {
             }
         }
         Polyhedron::from_faces(self.places, self.faces, tolerance(solid))
-    }
-
-    /// The largest triangle of a face.
-    fn largest_triangle(&self, face: u32) -> usize {
-        let solid = self.solid;
-        let own = (0..solid.triangles.len()).filter(|t| solid.facets[*t] == face);
-        let size = |t: &usize| {
-            let [a, b, c] = solid.corners(*t);
-            (b - a).cross(&(c - a)).norm()
-        };
-        own.max_by(|s, t| size(s).total_cmp(&size(t))).unwrap_or(0)
     }
 }
 

@@ -16,6 +16,11 @@ pub(super) struct Lines {
 }
 
 impl Lines {
+    /// Lines at these angles, in ascending order: those of a bend all around from one to a turn later.
+    pub(super) fn at(angles: Vec<f64>, is_ring: bool) -> Lines {
+        Lines { angles, is_ring }
+    }
+
     /// Lines at the angles of the corners of a bend's rims if the strips are alike then, else evenly spaced; between two angles, or all
     /// around. Angles that differ by less than `near` are one.
     pub(super) fn new(mut rims: Vec<f64>, ends: Option<[f64; 2]>, near: f64) -> Lines {
@@ -36,10 +41,7 @@ impl Lines {
             rims = (0..count as u32).map(line).collect();
             rims.push(to);
         }
-        Lines {
-            angles: rims,
-            is_ring: ends.is_none(),
-        }
+        Lines::at(rims, ends.is_none())
     }
 
     /// Number of strips.
@@ -56,7 +58,7 @@ impl Lines {
     }
 
     /// Angle of the line with a number.
-    fn at(&self, number: i64) -> f64 {
+    fn angle(&self, number: i64) -> f64 {
         let turns = match self.is_ring {
             true => number.div_euclid(self.count()),
             false => 0,
@@ -74,7 +76,7 @@ impl Lines {
         let all = self.numbers().take_while(|k| k < self.numbers().end());
         let all = all.map(|k| {
             let number = k.rem_euclid(self.count()) as u32;
-            (number, [self.at(k), self.at(k + 1)])
+            (number, [self.angle(k), self.angle(k + 1)])
         });
         all.filter(|(_, [from, to])| *from < high && *to > low)
             .collect()
@@ -82,7 +84,7 @@ impl Lines {
 
     /// Angles of the lines between two angles, in the order from the first to the second.
     pub(super) fn crossed(&self, [from, to]: [f64; 2]) -> Vec<f64> {
-        let all = self.numbers().map(|k| self.at(k));
+        let all = self.numbers().map(|k| self.angle(k));
         let mut between: Vec<f64> = all
             .filter(|line| (line - from) * (line - to) < 0.0)
             .collect();

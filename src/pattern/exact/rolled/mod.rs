@@ -1,10 +1,12 @@
-//! Bends that are parts of cylinders and circular cones, however they are triangulated: divided into strips along their rulings, and
-//! rolled off.
+//! Bends that are walls of any profile, or parts of cylinders and circular cones, however they are triangulated: divided into strips along
+//! their rulings, and rolled off.
 
 mod cone;
 mod division;
 mod lines;
 mod roll;
+mod surface;
+mod wall;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -20,6 +22,7 @@ use crate::scene::polyhedron::{Place, Polyhedron};
 use cone::Cone;
 use division::Division;
 use roll::{Roll, tolerance};
+use surface::Surface;
 
 /// Number of neighbouring facets from which a cylinder is found. `benches/patterns.md` has what others give.
 const SEED_FACETS: usize = 8;
@@ -30,8 +33,8 @@ const MAX_FRUITLESS_SEEDS: usize = 64;
 /// Maximum area of a slender facet, as a share of the square of its longest side. `benches/patterns.md` has what others give.
 const MAX_SLENDER_SHARE: f64 = 0.05;
 
-/// Finds the bends of a mesh without noise that are parts of cylinders and circular cones and not divided along their rulings, and divides
-/// them so; all other faces are those of the mesh. `None` if there are none, and where the faces of the mesh are not exact
+/// Finds the bends of a mesh without noise that are walls of any profile, or parts of cylinders and circular cones, and not divided along
+/// their rulings, and divides them so; all other faces are those of the mesh. `None` if there are none, and where the faces of the mesh are not exact
 /// ([`Exactness::Faces`]) and one of them is neither on a bend nor next to it.
 ///
 /// Costs `O(triangles)` for each bend.
@@ -55,13 +58,18 @@ pub(super) fn divided_bends(solid: &Polyhedron, exactness: Exactness) -> Option<
         return None;
     }
     rolls.retain(|roll| !roll.is_divided(solid));
-    if rolls.is_empty() {
-        return None;
-    }
-    let mut divided = Division::new(solid);
-    for roll in &rolls {
-        divided.divide(roll)?;
-    }
+    let divided = loop {
+        if rolls.is_empty() {
+            return None;
+        }
+        let mut divided = Division::new(solid);
+        match rolls.iter().position(|roll| divided.divide(roll).is_none()) {
+            None => break divided,
+            // Exact faces are kept where they cannot be divided.
+            Some(failed) if exactness == Exactness::Faces => drop(rolls.remove(failed)),
+            Some(_) => return None,
+        }
+    };
     let solid = divided.into_polyhedron();
     Some(FoundFaces {
         count: solid.normals.len(),
@@ -100,7 +108,9 @@ struct Search<'a> {
     /// Distance within which a place lies on a surface.
     near: f64,
     triangles: Vec<Vec<u32>>,
-    /// Facets that each facet meets at a small angle, or at any if they are so slender that they face no side.
+    /// Facets that each facet meets at a small angle.
+    steps: Vec<Vec<u32>>,
+    /// The same, and at any angle those that are so slender that they may face no side.
     around: Vec<Vec<u32>>,
     is_slender: Vec<bool>,
 }
@@ -117,12 +127,16 @@ impl Search<'_> {
             *area < MAX_SLENDER_SHARE * longest * longest
         };
         let is_slender: Vec<bool> = triangles.iter().zip(&solid.areas).map(is_slender).collect();
-        let mut around = vec![Vec::new(); solid.normals.len()];
+        let mut steps = vec![Vec::new(); solid.normals.len()];
+        let mut around = steps.clone();
         for side in solid.inner_sides() {
-            let twin = solid.twins[side as usize];
+            let (twin, is_step) = (solid.twins[side as usize], solid.is_step(side));
             let [a, b] = [side, twin].map(|s| solid.facet(s));
             for (own, other) in [(a, b), (b, a)] {
-                if solid.is_step(side) || is_slender[other as usize] {
+                if is_step {
+                    steps[own as usize].push(other);
+                }
+                if is_step || is_slender[other as usize] {
                     around[own as usize].push(other);
                 }
             }
@@ -131,6 +145,7 @@ impl Search<'_> {
             solid,
             near: tolerance(solid),
             triangles,
+            steps,
             around,
             is_slender,
         }
@@ -141,23 +156,29 @@ impl Search<'_> {
         let mut rolls: Vec<Roll> = Vec::new();
         let mut fruitless = 0;
         let mut is_tried = vec![false; self.around.len()];
+        let mut is_no_wall = is_tried.clone();
         for seed in 0..self.around.len() as u32 {
-            // A rim leads to its slender facets, and they do not lead to it.
-            let own = &self.around[seed as usize];
-            let goes_on = |other: &u32| self.around[*other as usize].contains(&seed);
-            if is_tried[seed as usize] || !own.iter().any(goes_on) {
+            if is_tried[seed as usize] {
                 continue;
             }
             let is_free = |facet: u32| !is_tried[facet as usize];
-            let near = grow(&self.around, seed, |near, facet| {
+            let near = grow(&self.steps, seed, |near, facet| {
                 near.len() < SEED_FACETS && is_free(facet)
             });
             if near.len() < SEED_FACETS {
                 continue;
             }
-            let found = [false, true].iter().find_map(|is_conical| {
-                let (surface, facets) = self.surface(near.clone(), *is_conical)?;
-                Some(self.roll(surface, facets))
+            let mut found = None;
+            if !is_no_wall[seed as usize] {
+                let (wall, facets) = self.wall(&near, is_free);
+                found = wall;
+                (facets.iter()).for_each(|facet| is_no_wall[*facet as usize] = true);
+            }
+            let found = found.or_else(|| {
+                [false, true].iter().find_map(|is_conical| {
+                    let (surface, facets) = self.surface(near.clone(), *is_conical)?;
+                    Some(self.roll(surface, facets))
+                })
             });
             fruitless += 1;
             if rolls.is_empty() && found.is_none() && fruitless > max_fruitless {
@@ -182,7 +203,7 @@ impl Search<'_> {
         };
         let mut roll = Roll {
             side: on.iter().map(outward).sum::<f64>().signum(),
-            surface,
+            surface: Box::new(surface),
             facets: FxHashSet::from_iter(on.iter().copied()),
             triangles: Vec::new(),
             faces: Vec::new(),
@@ -226,7 +247,7 @@ impl Search<'_> {
             let is_in = |facet: &u32| {
                 let mut points = self.points(&[*facet]).into_iter();
                 points.all(|p| roll.coordinates(&p, solid, near).is_some())
-                    && !self.reaches_across(&roll.surface, *facet)
+                    && !self.reaches_across(&*roll.surface, *facet)
             };
             (open, beside) = beside.into_iter().partition(is_in);
             if open.is_empty() {
@@ -297,7 +318,7 @@ impl Search<'_> {
 
     /// Whether a triangle of a facet joins places on opposite sides of a surface, as in a disc that ends a tube: its corners are on the
     /// surface as well.
-    fn reaches_across(&self, surface: &Cone, facet: u32) -> bool {
+    fn reaches_across(&self, surface: &dyn Surface, facet: u32) -> bool {
         let mut triangles = self.triangles[facet as usize].iter();
         triangles.any(|t| {
             let corners = self.solid.corners(*t as usize);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::cone::Cone;
+use super::surface::Surface;
 use crate::math::index::NO_INDEX;
 use crate::scene::polyhedron::{Place, Polyhedron};
 
@@ -19,7 +19,7 @@ pub(super) fn tolerance(solid: &Polyhedron) -> f64 {
 /// A bend: its surface, the facets on it, those that lie partly on it and partly in a face that it goes over into, and the faces,
 /// each with the angle at which it touches the surface.
 pub(super) struct Roll {
-    pub surface: Cone,
+    pub surface: Box<dyn Surface>,
     pub facets: FxHashSet<u32>,
     /// Triangles of the facets, and of the faces those that begin to bend.
     pub triangles: Vec<usize>,
@@ -62,7 +62,7 @@ impl Roll {
             .map(|[low, high]| 0.5 * (low + high))
             .collect();
         middles.sort_by(f64::total_cmp);
-        let near = tolerance(solid) / self.surface.radius.abs();
+        let near = tolerance(solid) / self.surface.radius().abs();
         if middles.windows(2).any(|pair| pair[1] - pair[0] <= near) {
             return false;
         }
@@ -80,7 +80,8 @@ impl Roll {
         let [angle, _, off] = self.surface.coordinates(place);
         let mut touches = self.faces.iter().map(|(_, touch)| *touch);
         // Angles are counted from the middle.
-        let is_beyond = |touch: f64| (touch - angle) * touch.signum() * self.surface.radius > near;
+        let is_beyond =
+            |touch: f64| (touch - angle) * touch.signum() * self.surface.radius() > near;
         off.abs() <= near && touches.all(is_beyond)
     }
 

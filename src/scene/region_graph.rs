@@ -68,8 +68,12 @@ impl RegionGraph {
             let sums = self.neighbours[a as usize].get(&b);
             if sums.is_some_and(|sums| self.sharpness(a, b, *sums) == sharpness) {
                 merged = true;
-                let kept = self.merge(a, b);
-                for (other, sums) in &self.neighbours[kept as usize] {
+                let (kept, inherited) = self.merge(a, b);
+                let neighbours = &self.neighbours[kept as usize];
+                // Where bends do not count, the other borders of the kept region fold as they did.
+                let has_changed =
+                    |other: &u32| self.fold_per_bend > 0.0 || inherited.contains_key(other);
+                for (other, sums) in neighbours.iter().filter(|(other, _)| has_changed(other)) {
                     queue.push(Reverse((self.sharpness(kept, *other, *sums), kept, *other)));
                 }
             }
@@ -96,7 +100,7 @@ impl RegionGraph {
                 .min_by_key(|(other, sums)| self.sharpness(region, **other, **sums))
                 .map(|(other, _)| *other);
             if let Some(other) = flattest {
-                let kept = self.merge(region, other);
+                let (kept, _) = self.merge(region, other);
                 queue.push(Reverse((self.sizes[kept as usize].to_bits(), kept)));
             }
         }
@@ -116,8 +120,8 @@ impl RegionGraph {
         (mean(fold) / (self.fold_per_bend * one.min(other)).max(self.fold)).to_bits()
     }
 
-    /// Merges two regions. Returns the number that is kept: that of the region with more neighbours.
-    fn merge(&mut self, a: u32, b: u32) -> u32 {
+    /// Merges two regions. Returns the number that is kept, that of the region with more neighbours, and the borders of the other one.
+    fn merge(&mut self, a: u32, b: u32) -> (u32, BTreeMap<u32, AngleSum>) {
         let degree = |region: u32| self.neighbours[region as usize].len();
         let (kept, gone) = if degree(a) < degree(b) {
             (b, a)
@@ -127,13 +131,13 @@ impl RegionGraph {
         self.parents[gone as usize] = kept;
         self.add_member(kept, self.sizes[gone as usize], self.bends[gone as usize]);
         self.neighbours[kept as usize].remove(&gone);
-        for (other, sums) in std::mem::take(&mut self.neighbours[gone as usize]) {
-            if other != kept {
-                self.neighbours[other as usize].remove(&gone);
-                self.add_border(kept, other, sums);
-            }
+        let mut inherited = std::mem::take(&mut self.neighbours[gone as usize]);
+        inherited.remove(&kept);
+        for (other, sums) in &inherited {
+            self.neighbours[*other as usize].remove(&gone);
+            self.add_border(kept, *other, *sums);
         }
-        kept
+        (kept, inherited)
     }
 }
 

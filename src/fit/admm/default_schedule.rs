@@ -21,7 +21,8 @@ use crate::fit::energy::spectral_penalty::PenaltyKind;
 use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::report::StopReason;
 
-/// Maximum number of conjugate-gradient iterations in a z-step of the default schedule.
+/// Maximum number of conjugate-gradient iterations in a z-step of the default schedule
+/// (`benches/choices.md`, One constant at a time).
 const MAX_CG_ITERATIONS: usize = 1;
 
 /// Maximum number of conjugate-gradient iterations in a z-step on a lattice while the duality gap is large

@@ -37,7 +37,7 @@ const MAX_CG_ITERATIONS: usize = 5000;
 /// Over-relaxation factor of `Cz` in Eq. 18 and 19 of the paper: 1, which is none.
 const PAPER_OVER_RELAXATION: f64 = 1.0;
 
-/// Number of ADMM iterations from one check of convergence and ρ to the next, as in the authors' code.
+/// Number of ADMM iterations from one check of convergence and ρ to the next in the paper's schedule, as in the authors' code.
 const CHECK_ITERATIONS: usize = 10;
 
 /// Root mean square residual for each entry of a Hessian at which the paper's schedule stops, as in the authors' code,
@@ -51,11 +51,11 @@ const RELATIVE_TOLERANCE: f64 = 1e-3;
 /// Number of entries of a Hessian in the norm of a residual: the paper counts `h_xy` and `h_yx` (Eq. 16).
 const HESSIAN_ENTRIES: f64 = 4.0;
 
-/// Ratio of the primal to the dual residual, or the inverse, above which ρ changes, as in the authors' code: Boyd et
-/// al. have 10, and a larger ratio saves factorisations, as Stellato et al. recommend.
+/// Ratio of the primal to the dual residual, or the inverse, above which ρ changes in the paper's schedule, as in the authors' code:
+/// Boyd et al. have 10, and a larger ratio saves factorisations, as Stellato et al. recommend.
 const RESIDUAL_RATIO: f64 = 5000.0;
 
-/// Factor by which ρ is multiplied or divided when it changes, as in the authors' code.
+/// Factor by which ρ is multiplied or divided when it changes in the paper's schedule, as in the authors' code.
 const RHO_FACTOR: f64 = 2.0;
 
 /// Begins the paper's schedule with the first iterate, whose Hessians and dual are 0 unless there is a warm start.

@@ -29,10 +29,11 @@ const RANK_STEPS: usize = 8;
 /// values; beyond it, they are removed less.
 const FIRST_EIGENVALUE_LIMIT: f64 = 1.2;
 
-/// Factor by which the threshold of the smaller eigenvalues changes from step to step.
+/// Factor by which the threshold of the smaller eigenvalues changes from step to step (`benches/choices.md`, The rank of the surface).
 const LIMIT_FACTOR: f64 = 0.7;
 
-/// Over-relaxation factor of a rank reduction step: heights can follow only a part of a change of their Hessians.
+/// Over-relaxation factor of a rank reduction step: heights can follow only a part of a change of their Hessians
+/// (`benches/choices.md`, The rank of the surface).
 const RANK_OVER_RELAXATION: f64 = 2.0;
 
 /// Stride between the stencils whose smaller eigenvalues the median is computed of.

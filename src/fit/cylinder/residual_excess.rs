@@ -15,17 +15,21 @@ const END_SHARE: f64 = 0.04;
 
 /// Number of blocks of residuals in half of a long stretch of the rulings, for each length of stretches whose variance
 /// is tested.
-const LONG_HALF_BLOCKS: [usize; 3] = [24, 12, 6];
+const LONG_HALF_BLOCKS: [usize; 3] = [
+    BLOCKS_PER_STRIPE / 2,
+    BLOCKS_PER_STRIPE / 4,
+    BLOCKS_PER_STRIPE / 8,
+];
 
 /// Number of blocks of residuals in half of a short stretch of the rulings, whose variance that of long stretches is
 /// compared with.
-const SHORT_HALF_BLOCKS: usize = 3;
+const SHORT_HALF_BLOCKS: usize = BLOCKS_PER_STRIPE / 16;
 
 /// Number of parts of the rulings whose mean residuals are tested for correlation.
 const CORRELATED_PARTS: usize = 12;
 
 /// Maximum distance, in parts, of two parts of the rulings that are tested for correlation.
-const MAX_LAG_PARTS: usize = 6;
+const MAX_LAG_PARTS: usize = CORRELATED_PARTS / 2;
 
 /// Minimum product of the ratios that [`variance_ratio`] and [`correlation_ratio`] are expected to find for noise: that of noise of
 /// depth images, smoothed by a Gaussian of 2 pixels, on pages half as large as the image.

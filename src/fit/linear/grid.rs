@@ -41,7 +41,7 @@ pub(crate) struct Grid {
 
 /// Upper bound of the eigenvalues of `diag(A)⁻¹A` for the z-step's matrix `A` on every domain: the largest eigenvalue
 /// for a single stencil, because `A` and its diagonal are sums over stencils. (A stencil has 36 on the diagonal at its
-/// centre and 5 at each neighbour in units of 2/9 h⁻⁴; the deviatoric rows give 12/5, the mean 11/5.)
+/// centre and 5 at each neighbour in units of 2/9 h⁻⁴; the deviatoric rows give 12/5, the mean 11/5; `benches/choices.md`, One constant at a time.)
 pub(crate) const LARGEST_EIGENVALUE: f32 = 2.4;
 
 impl Grid {

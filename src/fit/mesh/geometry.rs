@@ -6,9 +6,9 @@ use super::topology::Topology;
 
 pub(crate) type Point = Vector3<f64>;
 
-/// Share of the way to the mean of its neighbours that a vertex moves in one smoothing step; at 1, smoothing oscillates
-/// on some meshes (`benches/whole.md`).
-const SMOOTHING_STEP_SHARE: f64 = 0.7;
+/// Share of the way to the mean of its neighbours that a vertex, or a value there, moves in one smoothing step; at 1, smoothing
+/// oscillates on some meshes (`benches/whole.md`).
+pub(super) const SMOOTHING_STEP_SHARE: f64 = 0.7;
 
 /// Minimum squared length of a hint's component across a frame's normal; a shorter one gives no tangent direction.
 const MIN_HINT_SQUARE: f64 = 1e-6;

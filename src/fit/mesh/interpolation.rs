@@ -14,7 +14,7 @@ use crate::fit::operator::sparse::matrix::SparseMatrix;
 use crate::math::index::NO_INDEX;
 
 /// Squared distance from which on clusters have no weight, in squared distances of the farthest cluster around. A
-/// ratio of 1.05 gives coarse matrices 50 % more entries and saves no iterations.
+/// ratio of 1.05 gives coarse matrices 50 % more entries and saves no iterations (`benches/whole.md`, V-cycles).
 const SQUARED_REACH_RATIO: f64 = 0.8;
 
 /// Share of the second moments that is added to them, so that slopes vanish where the clusters around a vertex do not

@@ -9,7 +9,7 @@ use nalgebra::Matrix3;
 use super::adjacency::Adjacency;
 use super::clusters::Clusters;
 use super::edge_load::{in_plane, in_space};
-use super::geometry::Point;
+use super::geometry::{Point, SMOOTHING_STEP_SHARE};
 use super::linearisation::Linearisation;
 use crate::error::{Result, try_filled};
 use crate::math::index::NO_INDEX;
@@ -18,9 +18,6 @@ use crate::math::sym2::Sym2;
 /// Number of smoothing steps of a correction that is constant on each cluster, after which hardly anything of the jumps
 /// between clusters is left.
 const CORRECTION_SMOOTHING_STEPS: usize = 3;
-
-/// Share of the way to the mean of its neighbours that a vertex's value goes in one smoothing step of a correction.
-const CORRECTION_STEP_SHARE: f64 = 0.7;
 
 /// Minimum share of the vertices around with a value at which their smoothed value is used.
 const MIN_VALUE_WEIGHT: f64 = 0.05;
@@ -163,7 +160,7 @@ fn smooth<const N: usize>(
                 }
             }
             if count > 0.0 {
-                let step = |own: f64, sum: f64| CORRECTION_STEP_SHARE * (sum / count - own);
+                let step = |own: f64, sum: f64| SMOOTHING_STEP_SHARE * (sum / count - own);
                 (0..N).for_each(|k| value[k] += step(value[k], sum[k]));
             }
         }

@@ -109,8 +109,7 @@ impl MeshLevels {
             }
             let bends = HuberParameters::from_options(&options.common());
             let lambda = level.linear.problem.lambda;
-            let Ok(linear) =
-                Linearisation::new(clusters.coarsen(vertices), bends, |_| lambda, sides)
+            let Ok(linear) = Linearisation::new(clusters.coarsen(vertices), bends, lambda, sides)
             else {
                 break;
             };

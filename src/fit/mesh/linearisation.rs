@@ -7,7 +7,7 @@
 use super::adjacency::Adjacency;
 use super::geometry::{Frame, Point};
 use super::level_vertices::LevelVertices;
-use super::quadratic::{Neighbour, Quadratic, SECOND_RING_FIT_WEIGHT};
+use super::quadratic::{Neighbour, Quadratic, SECOND_RING_FIT_WEIGHT, STENCIL_ROW_CAPACITY};
 use super::smooth_regions::SmoothRegions;
 use super::topology::Topology;
 use crate::error::{Error, Result, try_filled};
@@ -31,12 +31,8 @@ const MAX_RING_AMPLIFICATION: f64 = 1.05;
 /// Minimum number of first-ring vertices at which a quadratic may be fitted to them without the second ring.
 const MIN_RING_VERTICES: usize = 6;
 
-/// Number of entries reserved for each row of the operator's matrix: two rings of a hexagonal mesh, the vertex itself
-/// and the constant.
-const STENCIL_ROW_CAPACITY: usize = 20;
-
-/// Minimum confidence of a mesh's vertex in the energy: a smaller one would need a linear system of its own.
-const MIN_CONFIDENCE: f64 = 1e-4;
+/// Minimum confidence of a mesh's vertex that counts: a smaller one would need a linear system of its own.
+pub(super) const MIN_CONFIDENCE: f64 = 1e-4;
 
 /// Problem of a mesh's fit, linearised about a base: the convex problem that one pass solves.
 #[derive(Debug, Clone)]
@@ -62,14 +58,14 @@ pub(super) fn hexagonal_spacing(area: f64) -> f64 {
 
 impl Linearisation {
     /// Linearises the energy about the vertices of a level, which move along the normals of their frames, and across
-    /// these as well on creases, where smooth regions of `sides` meet. `lambda` gives λ for the spacing.
+    /// these as well on creases, where smooth regions of `sides` meet.
     ///
     /// # Errors
     /// [`Error::Topology`] if no vertex has triangles all around, or [`Error::OutOfMemory`].
     pub(super) fn new(
         vertices: LevelVertices,
         bends: HuberParameters,
-        lambda: impl Fn(f64) -> f64,
+        lambda: f64,
         sides: Option<&SmoothRegions>,
     ) -> Result<Self> {
         let LevelVertices {
@@ -189,8 +185,7 @@ impl Linearisation {
             let vertex = *vertex as usize;
             *target = vertices.offset[vertex].dot(along) / scales[vertex];
         }
-        let mut problem =
-            Problem::unweighted(operator, lambda(spacing), target, PenaltyKind::Huber(bends));
+        let mut problem = Problem::unweighted(operator, lambda, target, PenaltyKind::Huber(bends));
         problem.constrained.push(constant);
         let mut inverse = try_filled("fidelity", unknowns, 1.0)?;
         inverse[count] = 0.0;

@@ -7,11 +7,9 @@ use super::geometry::{Frame, Point, areas};
 use super::input::MeshInput;
 use super::linearisation::hexagonal_spacing;
 use super::topology::Topology;
+use crate::fit::tuning::noise::MIN_NOISE_SAMPLES;
 use crate::math::least_squares::LeastSquares;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
-
-/// Minimum number of vertices from which the noise of a mesh is estimated.
-const MIN_NOISE_SAMPLES: usize = 50;
 
 /// Maximum number of vertices from which the noise of a mesh is estimated: more do not make the estimate better.
 const MAX_NOISE_SAMPLES: usize = 20_000;

@@ -15,8 +15,8 @@ const HEXAGONAL_AMPLIFICATION: f64 = 20.0 / 3.0;
 /// determine the quadratic: half of the digits of double precision are left.
 const MIN_PIVOT_SHARE: f64 = 1e-8;
 
-/// Number of neighbours for which memory is reserved: two rings of a hexagonal mesh and some more.
-const SAMPLE_CAPACITY: usize = 24;
+/// Number of neighbours for which memory is reserved: two rings of a hexagonal mesh, with room for a vertex and a constant.
+pub(super) const STENCIL_ROW_CAPACITY: usize = 20;
 
 /// Weight of a second-ring vertex in a quadratic fit, relative to a first-ring vertex (`benches/whole.md`).
 pub(super) const SECOND_RING_FIT_WEIGHT: f64 = 0.03;
@@ -90,7 +90,7 @@ impl Quadratic {
             return None;
         }
         let fit = Quadratic {
-            samples: Vec::with_capacity(SAMPLE_CAPACITY),
+            samples: Vec::with_capacity(STENCIL_ROW_CAPACITY),
             equations: NormalEquations::default(),
             inverse: [[0.0; COEFFICIENT_COUNT]; COEFFICIENT_COUNT],
             coefficients: [0.0; COEFFICIENT_COUNT],

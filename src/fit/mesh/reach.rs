@@ -4,13 +4,11 @@
 
 use super::geometry::{faces_away, normals};
 use super::input::MeshInput;
+use super::linearisation::MIN_CONFIDENCE;
 
 /// Maximum distance of a vertex from where it was given, in standard deviations of the noise; noise in space exceeds it
 /// at one vertex in 65,000 (`benches/whole.md`).
 const MAX_MOVE_NOISE_RATIO: f64 = 5.0;
-
-/// Minimum confidence that counts in the noise of a single vertex: 30 times the usual noise.
-const MIN_NOISE_CONFIDENCE: f64 = 1e-3;
 
 /// Reach of every vertex for noise of the standard deviation `sigma`. A vertex of one triangle that is folded over onto
 /// its neighbours may be turned back, as far as its edges are long.
@@ -22,7 +20,7 @@ pub(super) fn reach(given: &MeshInput, sigma: Option<f64>, spacing: f64) -> Vec<
     let (topology, x) = (&given.topology, &given.noisy);
     let confidence = |vertex: usize| given.confidence.get(vertex).copied().unwrap_or(1.0);
     let mut reach: Vec<f64> = (0..x.len())
-        .map(|vertex| usual / confidence(vertex).clamp(MIN_NOISE_CONFIDENCE, 1.0).sqrt())
+        .map(|vertex| usual / confidence(vertex).clamp(MIN_CONFIDENCE, 1.0).sqrt())
         .collect();
     let up = normals(topology, x, None);
     for triangle in &topology.triangles {

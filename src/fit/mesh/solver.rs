@@ -392,9 +392,7 @@ impl MeshSolver {
             },
         })
     }
-}
 
-impl MeshSolver {
     /// Locates a triangle of the topology in the mesh, and its middle on the surface so far.
     fn entangled_triangle(&self, triangle: u32) -> EntangledTriangle {
         let corners = self.given.topology.triangles[triangle as usize];
@@ -426,5 +424,5 @@ fn linearise(
 ) -> Result<Linearisation> {
     let bends = HuberParameters::from_options(&options.common());
     let vertices = LevelVertices::from_mesh(given, base, frames, sides);
-    Linearisation::new(vertices, bends, |_| lambda, sides)
+    Linearisation::new(vertices, bends, lambda, sides)
 }

@@ -55,10 +55,9 @@ fn noisy(mesh: &Mesh, sigma: f64) -> Mesh {
     with_positions(mesh, &x)
 }
 
-const HUBER_PENALTY: HuberParameters = HuberParameters {
-    flatness: 0.3,
-    delta: 10.0,
-};
+fn huber_penalty() -> HuberParameters {
+    HuberParameters::from_options(&MeshOptions::default().common())
+}
 
 fn given(mesh: &Mesh) -> MeshInput {
     let topology = Topology::new(mesh).unwrap();
@@ -80,7 +79,7 @@ fn linearise(mesh: &Mesh) -> Linearisation {
         .map(|n| Frame::from_normal(n, Point::x()))
         .collect();
     let vertices = LevelVertices::from_mesh(&given, given.noisy.clone(), frames, None);
-    Linearisation::new(vertices, HUBER_PENALTY, |_| 1e4, None).unwrap()
+    Linearisation::new(vertices, huber_penalty(), 1e4, None).unwrap()
 }
 
 #[test]
@@ -206,7 +205,7 @@ fn a_lattice_as_a_mesh_has_the_lattices_answer() {
         .collect();
     let bends = HuberParameters::from_options(&options);
     let vertices = LevelVertices::from_mesh(&given, base, frames, None);
-    let linear = Linearisation::new(vertices, bends, |_| 1e4, None).unwrap();
+    let linear = Linearisation::new(vertices, bends, 1e4, None).unwrap();
     let jacobi =
         |problem: &super::linearisation::Problem, rho| SparseGradients::new(problem, rho).unwrap();
     let b = solve(

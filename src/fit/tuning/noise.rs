@@ -9,9 +9,9 @@ use crate::heights::pixel_noise::quantisation_step;
 use crate::math::fork;
 use crate::math::statistics::{MAD_TO_SIGMA, median};
 
-/// Minimum number of rings of six neighbours from which noise is estimated, and of heights that are held out; with fewer there is
-/// no estimate.
-pub(super) const MIN_NOISE_SAMPLES: usize = 50;
+/// Minimum number of rings of six neighbours, or of vertices of a mesh, from which noise is estimated, and of heights that are held
+/// out; with fewer there is no estimate.
+pub(crate) const MIN_NOISE_SAMPLES: usize = 50;
 
 /// Minimum ratio of the noise estimated from large discs to that from rings of six neighbours at which noise counts as
 /// correlated. Bends of the shape beside white noise raise it to 1.8 (`benches/scenes.md`, One constant at a time).

@@ -21,7 +21,7 @@ fn fits_beside_a_crease_go_by_their_own_side() {
     let bends = |sides: Option<&SmoothRegions>| {
         let x = given.noisy.clone();
         let vertices = LevelVertices::from_mesh(&given, x, frames(&given), sides);
-        Linearisation::new(vertices, HUBER_PENALTY, |_| 1e4, sides).unwrap()
+        Linearisation::new(vertices, huber_penalty(), 1e4, sides).unwrap()
     };
     let largest = |linear: &Linearisation| {
         let mut most = 0.0f64;

@@ -4,11 +4,12 @@ use crate::fit::mesh::smooth_regions::SmoothRegions;
 use crate::fit::operator::sparse::SparseOperator;
 use crate::fit::report::StopReason;
 
-/// Requested relative duality gap.
-const SOLVE_GAP: f64 = 2e-3;
+fn options() -> MeshOptions {
+    MeshOptions::default().gap(2e-3)
+}
 
 fn parameters() -> AdmmParameters {
-    AdmmParameters::new(&MeshOptions::default().gap(SOLVE_GAP).common()).for_mesh()
+    AdmmParameters::new(&options().common()).for_mesh()
 }
 
 /// About the mesh without noise, of a mesh with noise.
@@ -21,7 +22,7 @@ fn linearise_noisy(mesh: &Mesh, sigma: f64, sides: Option<&SmoothRegions>) -> Li
         .map(|n| Frame::from_normal(n, Point::x()))
         .collect();
     let vertices = LevelVertices::from_mesh(&given, base, frames, sides);
-    Linearisation::new(vertices, HUBER_PENALTY, |_| 1e4, sides).unwrap()
+    Linearisation::new(vertices, huber_penalty(), 1e4, sides).unwrap()
 }
 
 /// The solve of a level from nothing, without coarser levels.
@@ -41,7 +42,7 @@ fn cold(linear: &Linearisation) -> AdmmSolver<SparseOperator> {
 
 /// Solves with coarser levels and without, compares what both certify, and returns their iterations on the mesh itself.
 fn compare(linear: Linearisation, warm: Option<&WarmStart>) -> [usize; 2] {
-    let options = MeshOptions::default();
+    let options = options();
     let (mut levels, mut reason) = MeshLevels::new(linear, warm, &options, parameters()).unwrap();
     while reason.is_none() {
         reason = levels.advance(&mut 100).unwrap();
@@ -53,7 +54,7 @@ fn compare(linear: Linearisation, warm: Option<&WarmStart>) -> [usize; 2] {
     let (a, b) = (&own.admm.incumbent, &cold.admm.incumbent);
     let bound = a.dual_bound.max(b.dual_bound);
     for objective in [a.objective(), b.objective()] {
-        assert!((bound..(1.0 + 2.0 * SOLVE_GAP) * bound).contains(&objective));
+        assert!((bound..(1.0 + 2.0 * options.gap) * bound).contains(&objective));
     }
     // Each is as near to the optimum as its gap says, because the fidelity is strongly convex.
     let radius = |objective: f64| ((objective - bound) / linear.problem.lambda).sqrt();

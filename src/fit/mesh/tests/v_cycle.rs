@@ -4,9 +4,6 @@ use crate::fit::mesh::clusters::Clusters;
 use crate::fit::mesh::interpolation::interpolation;
 use crate::fit::operator::sparse::matrix::SparseMatrix;
 
-/// Screening length of the z-step's matrix, in spacings: at 4, its condition number is about 4,000.
-const SCREENING_LENGTH_CELLS: f64 = 4.0;
-
 /// Interpolations from two levels of clusters.
 fn interpolations(finest: &Linearisation) -> Vec<Arc<SparseMatrix<f32>>> {
     let mut levels = vec![finest.clone()];
@@ -15,7 +12,7 @@ fn interpolations(finest: &Linearisation) -> Vec<Arc<SparseMatrix<f32>>> {
         let fine = &levels[levels.len() - 1];
         let clusters = Clusters::new(&fine.vertices).unwrap();
         let vertices = clusters.coarsen(&fine.vertices);
-        let coarse = Linearisation::new(vertices, HUBER_PENALTY, |_| 1e4, None).unwrap();
+        let coarse = Linearisation::new(vertices, huber_penalty(), 1e4, None).unwrap();
         found.push(Arc::new(interpolation(&coarse, &clusters, fine, None)));
         levels.push(coarse);
     }
@@ -25,7 +22,8 @@ fn interpolations(finest: &Linearisation) -> Vec<Arc<SparseMatrix<f32>>> {
 /// Number of V-cycles until the solution is within a thousandth of that of conjugate gradients in double precision.
 fn iterations(linear: &Linearisation) -> usize {
     let problem = &linear.problem;
-    let rho = 2.0 * problem.lambda * (SCREENING_LENGTH_CELLS * linear.spacing).powi(4);
+    // A screening length of 4 spacings, at which the condition number is about 4,000.
+    let rho = 2.0 * problem.lambda * (4.0 * linear.spacing).powi(4);
     let interpolations = interpolations(linear);
     let mut solver = SparseGradients::with_v_cycle(problem, rho, &interpolations).unwrap();
     let mut random = random(5);

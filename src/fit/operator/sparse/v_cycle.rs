@@ -19,11 +19,11 @@ use crate::fit::operator::Operator;
 /// Interpolations from each level's unknowns to those of the next finer level, the finest first.
 pub(crate) type Interpolations = [Arc<SparseMatrix<f32>>];
 
-/// Number of smoothing steps of a V-cycle on each level before and after the coarse correction.
+/// Number of smoothing steps of a V-cycle on each level before and after the coarse correction (`benches/whole.md`, V-cycles).
 const SMOOTHING_STEPS: usize = 1;
 
 /// Ratio of the largest to the smallest eigenvalue whose error the smoother reduces; the coarse level reduces the errors of
-/// smaller eigenvalues.
+/// smaller eigenvalues (`benches/whole.md`, V-cycles).
 const SMOOTHED_EIGENVALUE_RATIO: f32 = 16.0;
 
 /// Number of smoothing steps on the coarsest level of a V-cycle.

@@ -56,12 +56,13 @@ impl PreparedInput {
 /// Solver of all components of a surface, one after the other, which can be interrupted.
 #[derive(Debug, Clone)]
 pub(super) struct ComponentSolver {
-    input: Input,
+    pub input: Input,
     /// Options of the solve, with λ and the penalty's parameters chosen.
-    options: Options,
+    pub options: Options,
     /// Factor from the input's units to normalised coordinates.
     scale: f64,
-    domain: Arc<Domain>,
+    /// Vertices that take part in the solve.
+    pub domain: Arc<Domain>,
     components: Components,
     /// Results of the finished components, in the order of the components.
     answers: Vec<Answer>,
@@ -73,8 +74,9 @@ pub(super) struct ComponentSolver {
     energies: Vec<f64>,
     /// Result of the last finished solve, from which further components and the next restart may start.
     warm_start: Option<Arc<WarmStart>>,
-    status: Status,
-    started: Instant,
+    pub status: Status,
+    /// Time from which the report counts seconds.
+    pub started: Instant,
     setup: f64,
 }
 
@@ -177,29 +179,6 @@ impl ComponentSolver {
         })
     }
 
-    pub(super) fn input(&self) -> &Input {
-        &self.input
-    }
-
-    /// The vertices that take part in the solve.
-    pub(super) fn domain(&self) -> &Arc<Domain> {
-        &self.domain
-    }
-
-    /// The time from which the report counts seconds.
-    pub(super) fn started(&self) -> Instant {
-        self.started
-    }
-
-    /// The options of the solve.
-    pub(super) fn options(&self) -> &Options {
-        &self.options
-    }
-
-    pub(super) fn status(&self) -> Status {
-        self.status
-    }
-
     /// Begins with the next component, if there is one left, or ends the solve.
     fn next_part(&mut self) -> Result<()> {
         let Some(number) = self.next_number() else {
@@ -227,7 +206,7 @@ impl ComponentSolver {
 
     /// Continues with the solve of a component that has been set up.
     fn begin(&mut self, part: Multilevel) -> Result<()> {
-        match part.reason() {
+        match part.reason {
             Some(reason) => {
                 self.answers.push(part.into_answer(reason));
                 self.next_part()
@@ -313,7 +292,7 @@ impl ComponentSolver {
             pending += 1;
         }
         if let Some(running) = &self.running {
-            let level = running.level();
+            let level = &running.level;
             let share = running.problem().operator.domain.interior_len() as f64
                 / level.admm.problem.operator.domain.interior_len() as f64;
             total.add(&level.admm.incumbent, share);
@@ -347,7 +326,7 @@ impl ComponentSolver {
 
     /// Returns ADMM's penalty parameter ρ for the largest component.
     fn rho(&self) -> f64 {
-        let running = || self.running.as_ref().map(|c| c.level().admm.iterate.rho);
+        let running = || self.running.as_ref().map(|c| c.level.admm.iterate.rho);
         let first = self.answers.first().map(|answer| answer.iterate.rho);
         first.or_else(running).unwrap_or(0.0)
     }

@@ -24,7 +24,7 @@ pub(crate) const SET_UP_CG_ITERATIONS: usize = 10;
 #[derive(Debug, Clone)]
 pub(crate) struct Multilevel {
     /// ADMM on the current level.
-    level: AdmmSolver,
+    pub level: AdmmSolver,
     /// Problems on the finer levels, the finest first.
     finer: Vec<Problem>,
     /// First iterate of the next finer level, from the end of the current level until the next one begins.
@@ -49,7 +49,8 @@ pub(crate) struct Multilevel {
     /// Whether there is rank reduction.
     reduces_rank: bool,
     seconds: Seconds,
-    reason: Option<StopReason>,
+    /// Reason why the solve stopped; `None` while it runs.
+    pub reason: Option<StopReason>,
 }
 
 /// Result of a component's solve: its surface, and the iterate for a warm start of another solve.
@@ -209,19 +210,9 @@ impl Multilevel {
         }
     }
 
-    /// Returns the reason why the solve stopped; `None` while it runs.
-    pub(crate) fn reason(&self) -> Option<StopReason> {
-        self.reason
-    }
-
     /// Number of finer levels still to come.
     pub(crate) fn levels_left(&self) -> usize {
         self.finer.len()
-    }
-
-    /// Returns ADMM on the current level.
-    pub(crate) fn level(&self) -> &AdmmSolver {
-        &self.level
     }
 
     /// Returns the problem on the finest lattice.

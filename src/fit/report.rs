@@ -121,7 +121,7 @@ pub struct LevelReport {
 }
 
 /// Reason for the λ that [`Lambda::Auto`](crate::Lambda::Auto) has chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize),
@@ -142,11 +142,12 @@ pub enum LambdaReason {
     /// λ is the smallest one that keeps the surface within [`Options::tolerance`](crate::Options::tolerance).
     Tolerance,
     /// There are too few heights to estimate their noise: λ is [`Lambda::Medium`](crate::Lambda::Medium).
+    #[default]
     Unknown,
 }
 
 /// Choice of λ by [`Lambda::Auto`](crate::Lambda::Auto): its reason, what it found out about the noise, and its cost.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize),

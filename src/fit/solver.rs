@@ -140,7 +140,7 @@ impl Solver {
     /// # Errors
     /// As [`Solver::new`].
     pub fn restart(&mut self, options: &Options) -> Result<()> {
-        self.restart_with(self.solve.input().clone(), options)
+        self.restart_with(self.solve.input.clone(), options)
     }
 
     /// Restarts the solve with another input, such as slightly different heights or another mask. On a lattice of the
@@ -169,7 +169,7 @@ impl Solver {
     fn continue_solve(&mut self, work: usize) -> Result<Status> {
         let mut left = work.max(1);
         while let Some(levelling) = &mut self.levelling
-            && self.solve.status() == Status::Running
+            && self.solve.status == Status::Running
         {
             if !levelling.advance(&mut left)? {
                 return Ok(Status::Running);
@@ -177,7 +177,7 @@ impl Solver {
             self.begin_levelled()?;
         }
         while let Some(search) = &mut self.search
-            && self.solve.status() == Status::Running
+            && self.solve.status == Status::Running
         {
             if !search.advance(&mut left)? {
                 return Ok(Status::Running);
@@ -199,9 +199,9 @@ impl Solver {
             return Ok(());
         };
         let done = [levelling.solves, levelling.iterations];
-        let (input, domain) = (levelling.input, self.solve.domain().clone());
+        let (input, domain) = (levelling.input, self.solve.domain.clone());
         let warm_start = self.solve.warm_start(input.field.lattice());
-        let (threads, started) = (self.threads, self.solve.started());
+        let (threads, started) = (self.threads, self.solve.started);
         let prepared = PreparedInput { input, domain };
         let asked = levelling.asked;
         *self = Solver::start(prepared, asked, done, threads, warm_start, started)?;
@@ -214,16 +214,16 @@ impl Solver {
         let (Some(choice), Some(noise)) = (&mut self.choice, &self.noise) else {
             return Ok(false);
         };
-        let Status::Stopped(reason) = self.solve.status() else {
+        let Status::Stopped(reason) = self.solve.status else {
             return Ok(false);
         };
         if choice.residual_ratio.is_some() {
             return Ok(false);
         }
         let surface = self.solve.surface()?;
-        let (input, domain) = (self.solve.input(), self.solve.domain());
+        let (input, domain) = (&self.solve.input, &self.solve.domain);
         let residual = |unit| root_mean_square(input, domain, surface.heightfield(), unit);
-        let options = *self.solve.options();
+        let options = self.solve.options;
         let lambda = options.lambda_or_default().value();
         let is_solved = matches!(reason, StopReason::Gap | StopReason::Rounding);
         if let Some(refinement) = self.refinement.as_mut().filter(|_| is_solved)

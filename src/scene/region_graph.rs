@@ -123,11 +123,7 @@ impl RegionGraph {
     /// Merges two regions. Returns the number that is kept, that of the region with more neighbours, and the borders of the other one.
     fn merge(&mut self, a: u32, b: u32) -> (u32, BTreeMap<u32, AngleSum>) {
         let degree = |region: u32| self.neighbours[region as usize].len();
-        let (kept, gone) = if degree(a) < degree(b) {
-            (b, a)
-        } else {
-            (a, b)
-        };
+        let (kept, gone) = [(a, b), (b, a)][usize::from(degree(a) < degree(b))];
         self.parents[gone as usize] = kept;
         self.add_member(kept, self.sizes[gone as usize], self.bends[gone as usize]);
         self.neighbours[kept as usize].remove(&gone);

@@ -15,7 +15,7 @@ use super::iterate::{Iterate, SumTerms};
 use super::matrix_field::{MatrixBand, MatrixField, MatrixRun};
 use crate::error::{Result, try_filled};
 use crate::fit::energy::problem::Problem;
-use crate::fit::energy::spectral_penalty::{HuberStep, NuclearNorm, PenaltyKind, SpectralPenalty};
+use crate::fit::energy::spectral_penalty::{NuclearNorm, PenaltyKind, SpectralPenalty};
 use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::operator::{Hessians as _, Matrices as _, Sums as _};
 use crate::lattice::per_cell::PerCell;
@@ -73,31 +73,6 @@ pub(super) struct DualAscent<O: SolvableOperator> {
     scratch: O::Scratch<f32>,
     /// Buffer of each band for the matrices of one run of stencils, in double precision.
     rows: Vec<[Vec<f64>; 3]>,
-}
-
-/// Proximal map of the penalty's convex conjugate, which follows each gradient step of the dual.
-trait Proximal: Copy + Sync {
-    /// Applies the map to a matrix, given by its coordinates, of a stencil with penalty weight `ω`.
-    fn apply(self, v: [f32; 3], weight: f32) -> [f32; 3];
-}
-
-/// Proximal map of the nuclear norm's conjugate: the projection onto the dual ball, matrices of spectral norm at most
-/// `ω`.
-#[derive(Clone, Copy)]
-struct Projection;
-
-impl Proximal for Projection {
-    #[inline(always)]
-    fn apply(self, v: [f32; 3], weight: f32) -> [f32; 3] {
-        clamp(v, weight)
-    }
-}
-
-impl Proximal for HuberStep<f32> {
-    #[inline(always)]
-    fn apply(self, v: [f32; 3], weight: f32) -> [f32; 3] {
-        self.dual(v, weight)
-    }
 }
 
 impl<O: SolvableOperator> DualAscent<O> {
@@ -164,9 +139,11 @@ impl<O: SolvableOperator> DualAscent<O> {
             PenaltyKind::Huber(bends) => {
                 let unit = problem.operator.spacing().powi(4);
                 let tau = 2.0 * problem.lambda * unit / f64::from(problem.operator.norm());
-                self.take_steps(&problem.operator, bends.single(tau));
+                let step = bends.single(tau);
+                self.take_steps(&problem.operator, move |v, weight| step.dual(v, weight));
             }
-            _ => self.take_steps(&problem.operator, Projection),
+            // The projection onto the dual ball, matrices of spectral norm at most the stencil's weight.
+            _ => self.take_steps(&problem.operator, clamp),
         }
         let next = self.bound(iterate, problem);
         let search = &mut self.progress;
@@ -178,8 +155,13 @@ impl<O: SolvableOperator> DualAscent<O> {
         over.then_some(search.best)
     }
 
-    /// Takes the gradient steps up to the next evaluation of the dual bound.
-    fn take_steps(&mut self, operator: &O, proximal: impl Proximal) {
+    /// Takes the gradient steps up to the next evaluation of the dual bound. Each is followed by the `proximal` map of the
+    /// penalty's convex conjugate, of a matrix, given by its coordinates, and the weight of its stencil.
+    fn take_steps(
+        &mut self,
+        operator: &O,
+        proximal: impl Fn([f32; 3], f32) -> [f32; 3] + Copy + Sync,
+    ) {
         let before = self.progress.evaluations * STEPS_PER_EVALUATION;
         for step in before..before + STEPS_PER_EVALUATION {
             self.take_step(operator, proximal, momentum(step));
@@ -231,7 +213,12 @@ impl<O: SolvableOperator> DualAscent<O> {
     }
 
     /// Takes one gradient step of the dual in one pass over the vertices.
-    fn take_step(&mut self, operator: &O, proximal: impl Proximal, momentum: f32) {
+    fn take_step(
+        &mut self,
+        operator: &O,
+        proximal: impl Fn([f32; 3], f32) -> [f32; 3] + Sync,
+        momentum: f32,
+    ) {
         let DualAscent {
             last,
             ahead,
@@ -269,7 +256,7 @@ impl<O: SolvableOperator> DualAscent<O> {
                     let [g1, g2, g3] = hessians.at(i);
                     let up = |from: f32, gradient: f32| from + gradient * share;
                     let [n1, n2, n3] =
-                        proximal.apply([up(a1[i], g1), up(a2[i], g2), up(a3[i], g3)], weight[i]);
+                        proximal([up(a1[i], g1), up(a2[i], g2), up(a3[i], g3)], weight[i]);
                     a1[i] = n1 + momentum * (n1 - l1[i]);
                     a2[i] = n2 + momentum * (n2 - l2[i]);
                     a3[i] = n3 + momentum * (n3 - l3[i]);

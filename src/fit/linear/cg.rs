@@ -189,7 +189,8 @@ impl ZStepSolver<LatticeOperator> for ConjugateGradients {
         x: &mut [f64],
         criteria: CgCriteria,
     ) -> Result<usize> {
-        let mut precise = RefinedSolver::with_residual(problem, std::mem::take(residual))?;
+        let mut precise = RefinedSolver::new(problem)?;
+        std::mem::swap(&mut precise.residual, residual);
         let goal = criteria.tolerance * precise.distance(problem, &self.multigrid);
         let limits = (goal, criteria.max_iterations);
         let iterations = precise.solve(problem, self.rho, &mut self.multigrid, x, limits);

@@ -25,15 +25,9 @@ impl RefinedSolver {
     /// Allocates the solver of a problem, with a residual of 0.
     pub(crate) fn new(problem: &Problem) -> Result<Self> {
         let cells = problem.operator.domain.cells();
-        RefinedSolver::with_residual(problem, try_filled("conjugate gradients", cells, 0.0)?)
-    }
-
-    /// Allocates the solver of a problem, with a given residual.
-    pub(crate) fn with_residual(problem: &Problem, residual: Vec<f64>) -> Result<Self> {
-        let cells = residual.len();
         let zeros = || try_filled("conjugate gradients", cells, 0.0);
         Ok(RefinedSolver {
-            residual,
+            residual: zeros()?,
             direction: zeros()?,
             image: zeros()?,
             single: try_filled("conjugate gradients", cells, 0.0)?,

@@ -11,7 +11,7 @@ use crate::scene::mesh::Mesh;
 use super::adjacency::Adjacency;
 use super::morton_order;
 use super::report::Repairs;
-use crate::scene::half_edges::{next_half_edge, twin_half_edges};
+use crate::scene::half_edges::{half_edge_ends, next_half_edge, twin_half_edges};
 
 /// Connectivity of a mesh as a surface: vertices at one position are joined, and all triangles face one side.
 #[derive(Debug, Clone)]
@@ -164,20 +164,18 @@ impl Topology {
     /// Finds the neighbours of each vertex, with the edges on the border, after the checks that make the mesh a
     /// surface.
     fn connect(&mut self, mesh: &Mesh) -> Result<()> {
-        // Each side of a triangle: its ends in order, the triangle and whether it runs forwards.
+        // The ends of each side of a triangle, the lower one first.
         let mut sides = Vec::new();
-        for (triangle, corners) in self.triangles.iter().enumerate() {
-            for k in 0..3 {
-                let (a, b) = (corners[k], corners[(k + 1) % 3]);
-                sides.push((a.min(b), a.max(b), triangle as u32, a < b));
+        for [a, b, c] in &self.triangles {
+            for [a, b] in [[a, b], [b, c], [c, a]] {
+                sides.push([*a.min(b), *a.max(b)]);
             }
         }
         sides.sort_unstable();
-        let edges: Vec<&[(u32, u32, u32, bool)]> =
-            sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).collect();
+        let edges: Vec<&[[u32; 2]]> = sides.chunk_by(|a, b| a == b).collect();
         self.repairs.branched = edges.iter().filter(|edge| edge.len() > 2).count();
-        self.orient(mesh, &edges)?;
-        let ends = |edge: &&[(u32, u32, u32, bool)]| [edge[0].0, edge[0].1];
+        self.orient(mesh)?;
+        let ends = |edge: &&[[u32; 2]]| edge[0];
         self.adjacency = Adjacency::from_edges(self.len(), edges.iter().map(ends))?;
         // Where three triangles or more meet, none continues another: the edge is a border of each.
         let rim = || edges.iter().filter(|edge| edge.len() != 2);
@@ -191,19 +189,9 @@ impl Topology {
     }
 
     /// Turns triangles over until neighbours face one side, and counts the connected components.
-    fn orient(&mut self, mesh: &Mesh, edges: &[&[(u32, u32, u32, bool)]]) -> Result<()> {
+    fn orient(&mut self, mesh: &Mesh) -> Result<()> {
+        let twins = twin_half_edges(&self.triangles);
         let count = self.triangles.len();
-        let mut beside: Vec<[(u32, bool); 3]> = vec![[(u32::MAX, false); 3]; count];
-        let mut filled = vec![0usize; count];
-        for edge in edges {
-            if let [(.., a, forward), (.., b, also)] = edge {
-                for (from, to) in [(*a, *b), (*b, *a)] {
-                    let from = from as usize;
-                    beside[from][filled[from]] = (to, forward == also);
-                    filled[from] += 1;
-                }
-            }
-        }
         let mut turned: Vec<Option<bool>> = vec![None; count];
         let mut stack = Vec::new();
         for start in 0..count {
@@ -216,13 +204,17 @@ impl Topology {
             stack.push(start);
             while let Some(triangle) = stack.pop() {
                 let own = turned[triangle].unwrap_or(false);
-                for (other, same) in &beside[triangle][..filled[triangle]] {
-                    let wanted = own != *same;
-                    match turned[*other as usize] {
+                let sides = 3 * triangle as u32..3 * triangle as u32 + 3;
+                for side in sides.filter(|side| twins[*side as usize] != NO_INDEX) {
+                    let twin = twins[side as usize];
+                    let [from, to] = [side, twin].map(|s| half_edge_ends(&self.triangles, s)[0]);
+                    let wanted = own != (from == to);
+                    let other = twin as usize / 3;
+                    match turned[other] {
                         None => {
-                            turned[*other as usize] = Some(wanted);
-                            members.push(*other);
-                            stack.push(*other as usize);
+                            turned[other] = Some(wanted);
+                            members.push(other as u32);
+                            stack.push(other);
                         }
                         Some(turn) if turn != wanted => {
                             let [a, ..] = self.triangles[triangle];

@@ -67,19 +67,10 @@ pub(crate) fn initial_options(
     }: InputStatistics,
 ) -> (Options, LambdaChoice, Option<Aim>) {
     let mut choice = LambdaChoice {
-        reason: LambdaReason::Unknown,
         sigma: noise.map(|noise| noise.sigma),
         step: noise.and_then(|noise| noise.step),
         correlation_length: noise.map_or(0.0, |noise| noise.correlation_length),
-        ambiguous: false,
-        tolerance: None,
-        residual_ratio: None,
-        residual_exceeds_noise: false,
-        offset_rows: false,
-        offset_columns: false,
-        raises: 0,
-        solves: 0,
-        iterations: 0,
+        ..LambdaChoice::default()
     };
     let mut aim = noise.map(Aim::Noise);
     let lambda = noise.map(|noise| LAMBDA_NOISE / (noise.product * scale * scale));

@@ -93,7 +93,7 @@ impl Levelling {
     /// of its image are offset, interpolated between the coarse lines.
     fn level(&mut self) -> Result<()> {
         let surface = self.solve.surface()?;
-        let (domain, surface) = (self.solve.domain(), surface.heightfield());
+        let (domain, surface) = (&self.solve.domain, surface.heightfield());
         let mut residuals = residuals(&self.coarse, domain, surface, 1.0)?;
         let mut heights = self.input.field.heights().to_vec();
         let is_offset = self.input.offset_lines();

@@ -156,7 +156,7 @@ impl Search {
         match &mut self.stage {
             Stage::Fidelity { input, refinement } => {
                 let lambda = self.first.lambda_or_default().value();
-                let (domain, field) = (self.solve.domain(), surface.heightfield());
+                let (domain, field) = (&self.solve.domain, surface.heightfield());
                 let residual = root_mean_square(input, domain, field, refinement.unit())?;
                 let next = refinement.next(lambda, residual);
                 match next {

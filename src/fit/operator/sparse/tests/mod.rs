@@ -20,7 +20,7 @@ use crate::fit::linear::z_step_solver::SolvableOperator;
 use crate::fit::operator::{Hessians, Matrices, Operator, Sums};
 use crate::fit::report::StopReason;
 use crate::lattice::domain::Domain;
-use crate::{Energy, Heightfield, HessianOperator, Input, Lattice, Options, Schedule};
+use crate::{Energy, Heightfield, HessianOperator, Input, Lattice, Options};
 
 type Problem = problem::Problem<SparseOperator>;
 
@@ -121,13 +121,8 @@ impl Both {
             target[domain.lattice_index(cell)] = lattice.target[cell];
         }
         let lambda = options.lambda_or_default().value();
-        let mut sparse =
+        let sparse =
             Problem::unweighted(operator, lambda, target, PenaltyKind::from_options(options));
-        let weight = |vertex| input.weight(vertex);
-        let constrained = |vertex| input.is_constrained(vertex);
-        sparse
-            .set_fidelity(weight, constrained, options.tie_break_or_default())
-            .unwrap();
         Both {
             domain,
             lattice,
@@ -345,75 +340,5 @@ fn a_lattice_as_a_matrix_has_its_answer_under_every_energy() {
         let (sparse, b) = solve(&both.sparse, SparseGradients::new, &options);
         assert_eq!([a, b], [StopReason::Gap; 2], "{energy:?}");
         assert_alike(&both, &lattice, &sparse);
-    }
-}
-
-#[test]
-fn passes_and_the_papers_schedule_run_on_a_matrix() {
-    let input = Input::new(disk(16));
-    let options = options(1e4);
-    let both = Both::new(&input, &options);
-    let (mut lattice, _) = solve(&both.lattice, multigrid, &options);
-    let (mut sparse, _) = solve(&both.sparse, SparseGradients::new, &options);
-    for _ in 0..2 {
-        fn pass<O: SolvableOperator>(level: &mut AdmmSolver<O>) {
-            let mut reason = level.reweight().unwrap();
-            while reason.is_none() {
-                reason = level.advance(&mut 1000).unwrap();
-            }
-            assert_eq!(reason, Some(StopReason::Gap));
-        }
-        pass(&mut lattice);
-        pass(&mut sparse);
-    }
-    // Weights follow from surfaces that agree to within the gap only.
-    let [a, b] = [
-        lattice.admm.incumbent.objective(),
-        sparse.admm.incumbent.objective(),
-    ];
-    assert!((a - b).abs() < 1e-3 * a, "{a} and {b}");
-
-    let huber = options.energy(Energy::Huber);
-    let both = Both::new(&input, &huber);
-    let (mut lattice, _) = solve(&both.lattice, multigrid, &huber);
-    let (mut sparse, _) = solve(&both.sparse, SparseGradients::new, &huber);
-    let a = lattice.reweight_creases(1.0).unwrap();
-    let b = sparse.reweight_creases(1.0).unwrap();
-    assert!(a.vertices > 10 && a.changed && b.changed, "{a:?}");
-    assert!(a.vertices.abs_diff(b.vertices) <= 2, "{a:?} {b:?}");
-
-    let paper = huber.energy(Energy::Nuclear).schedule(Schedule::Paper);
-    let (level, reason) = solve(&both.sparse, SparseGradients::new, &paper);
-    assert_eq!(reason, StopReason::Residuals);
-    assert!(level.admm.incumbent.objective() > level.admm.incumbent.dual_bound);
-}
-
-#[test]
-fn weights_constraints_and_free_vertices_are_the_same_on_a_matrix() {
-    let field = disk(14);
-    let n = field.lattice().len();
-    let weights: Vec<f64> = (0..n).map(|i| [0.0, 1.0, 3.0][i % 3]).collect();
-    let held = |i: usize| i.is_multiple_of(11) && field.heights()[i].is_finite();
-    let heights = (0..n).map(|i| {
-        if held(i) {
-            field.heights()[i]
-        } else {
-            f64::NAN
-        }
-    });
-    let input = Input::new(field.clone())
-        .with_confidence(weights)
-        .and_then(|input| input.with_constraints(heights.collect()))
-        .unwrap();
-    let options = options(1e4).gap(1e-4);
-    let both = Both::new(&input, &options);
-    assert!(both.sparse.has_weak_fidelity && !both.sparse.free.is_empty());
-    let (lattice, a) = solve(&both.lattice, multigrid, &options);
-    let (sparse, b) = solve(&both.sparse, SparseGradients::new, &options);
-    assert_eq!([a, b], [StopReason::Gap; 2]);
-    assert_alike(&both, &lattice, &sparse);
-    for vertex in &both.sparse.constrained {
-        let vertex = *vertex as usize;
-        assert_eq!(sparse.admm.incumbent.z[vertex], both.sparse.target[vertex]);
     }
 }

@@ -5,7 +5,7 @@ let histories = [];
 
 /** @template T states, which are never changed */
 export class History {
-  /** Those before the present one, and those that were undone. @type {[past: T[], undone: T[]]} */
+  /** States before the present one, and states that were undone. @type {[past: T[], undone: T[]]} */
   #states = [[], []];
   /** @type {T | undefined} */
   #present;

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 
-/// What to do about a damaged file.
+/// Advice to whoever has a damaged file.
 #[cfg(any(feature = "formats", feature = "meshes"))]
 const COPY_AGAIN: &str = "copy, download or export it again";
 

@@ -25,7 +25,7 @@ export function isSameBook(a, b) {
   });
 }
 
-/** What a user can change of the page in a photo, as a text. @param {PageState} state */
+/** The text of all that a user can change of the page in a photo. @param {PageState} state */
 const editsOf = ({ outline, movedCorners, pageIndex, quarters, known }) => JSON.stringify([outline, [...movedCorners].sort(), pageIndex, quarters, known]);
 
 export class Book {

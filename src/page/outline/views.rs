@@ -40,7 +40,7 @@ pub(super) struct View<'a> {
     pub raw: &'a Planes,
     /// The reduced photo in which paper and ground are told apart.
     pub planes: &'a Planes,
-    /// The same at half the resolution.
+    /// The reduced photo in which paper and ground are told apart, at half its resolution.
     pub half: Planes,
     /// Amount by which suppressing print changes each pixel of the halved photo; empty where print is suppressed.
     marks: Vec<f32>,

@@ -110,7 +110,7 @@ struct Search<'a> {
     triangles: Vec<Vec<u32>>,
     /// Facets that each facet meets at a small angle.
     steps: Vec<Vec<u32>>,
-    /// The same, and at any angle those that are so slender that they may face no side.
+    /// Facets that each facet meets at a small angle, or at any if they are so slender that they may face no side.
     around: Vec<Vec<u32>>,
     is_slender: Vec<bool>,
 }
@@ -127,16 +127,14 @@ impl Search<'_> {
             *area < MAX_SLENDER_SHARE * longest * longest
         };
         let is_slender: Vec<bool> = triangles.iter().zip(&solid.areas).map(is_slender).collect();
-        let mut steps = vec![Vec::new(); solid.normals.len()];
-        let mut around = steps.clone();
+        let steps = solid.bend_steps().into_iter();
+        let steps = steps.map(|own| own.into_iter().map(|(facet, _)| facet).collect());
+        let mut around = vec![Vec::new(); solid.normals.len()];
         for side in solid.inner_sides() {
-            let (twin, is_step) = (solid.twins[side as usize], solid.is_step(side));
+            let twin = solid.twins[side as usize];
             let [a, b] = [side, twin].map(|s| solid.facet(s));
             for (own, other) in [(a, b), (b, a)] {
-                if is_step {
-                    steps[own as usize].push(other);
-                }
-                if is_step || is_slender[other as usize] {
+                if solid.is_step(side) || is_slender[other as usize] {
                     around[own as usize].push(other);
                 }
             }
@@ -145,7 +143,7 @@ impl Search<'_> {
             solid,
             near: tolerance(solid),
             triangles,
-            steps,
+            steps: steps.collect(),
             around,
             is_slender,
         }

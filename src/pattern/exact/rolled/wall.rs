@@ -17,7 +17,8 @@ use crate::scene::polyhedron::{MAX_BEND_STEP, Place};
 /// profile. No table chose it.
 const MAX_WALL_LEAN: f64 = 0.1;
 
-/// Number of edges, the nearest to the rulings as the facets' normals show them, among which those along the rulings are looked for.
+/// Number of edges, the nearest to the rulings as the facets' normals show them, among which those along the rulings are looked for. No table
+/// chose it.
 const MAX_WALL_EDGES: usize = 64;
 
 /// Minimum share of the rulings from corners of a wall's rim that meet another one of them: few do by chance. No table chose it.
@@ -168,14 +169,14 @@ impl Search<'_> {
     ) -> (Option<Roll>, Vec<u32>) {
         let solid = self.solid;
         let normal = |facet: &u32| solid.normals[*facet as usize] * solid.areas[*facet as usize];
+        let lean = |along: &Place, facet: u32| solid.normals[facet as usize].dot(along).abs();
         let mut facets = near.to_vec();
         let mut along = Place::zeros();
         for _ in 0..2 {
             let normals: Vec<Place> = facets.iter().map(normal).collect();
             along = least_normal(&normals, Place::zeros());
             facets = grow(&self.around, near[0], |_, facet| {
-                let lean = solid.normals[facet as usize].dot(&along).abs();
-                is_free(facet) && lean <= MAX_WALL_LEAN
+                is_free(facet) && lean(&along, facet) <= MAX_WALL_LEAN
             });
         }
         let is_among = near.iter().all(|facet| facets.contains(facet));
@@ -187,8 +188,8 @@ impl Search<'_> {
                 points.all(|p| roll.surface.coordinates(&p)[2] <= self.near)
             };
             let all = grow(&self.around, near[0], |_, facet| {
-                let lean = solid.normals[facet as usize].dot(&along).abs();
-                let faces_out = lean < FRAC_1_SQRT_2 || self.is_slender[facet as usize];
+                let is_slender = self.is_slender[facet as usize];
+                let faces_out = is_slender || lean(&along, facet) < FRAC_1_SQRT_2;
                 roll.facets.contains(&facet) || is_free(facet) && faces_out && is_on(facet)
             });
             if all.len() > facets.len() {

@@ -1,12 +1,8 @@
 //! How far heights are trusted.
 
 use crate::native::common::conic::Instance;
-use crate::native::common::{Random, cut, max_difference, noisy, unit_square};
+use crate::native::common::{Random, bumps, cut, max_difference, noisy, unit_square};
 use developable::{Error, Heightfield, Input, Lattice, Options, fit};
-
-fn bumps(x: f64, y: f64) -> f64 {
-    0.15 * (5.0 * x + 1.0).sin() * (4.0 * y).cos() + 0.2 * (x - 0.4).abs()
-}
 
 fn field(seed: u64) -> Heightfield {
     cut(&noisy(&unit_square(13, bumps), 0.02, seed), |x, y| {

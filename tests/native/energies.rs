@@ -1,19 +1,8 @@
 //! The energies against an independent conic solver, and what makes each what it is.
 
 use crate::native::common::conic::Instance;
-use crate::native::common::{cut, max_difference, noisy, unit_square};
-use developable::{Energy, Heightfield, Options, StopReason, fit};
-
-fn bumps(x: f64, y: f64) -> f64 {
-    0.15 * (5.0 * x + 1.0).sin() * (4.0 * y).cos() + 0.4 * (x - 0.4).abs()
-}
-
-/// Noise over bumps, a hole in the middle of them.
-fn ring(cols: usize, seed: u64) -> Heightfield {
-    cut(&noisy(&unit_square(cols, bumps), 0.02, seed), |x, y| {
-        (x - 0.45).hypot(y - 0.55) > 0.17
-    })
-}
+use crate::native::common::{bumps, max_difference, noisy, ring, unit_square};
+use developable::{Energy, Options, StopReason, fit};
 
 fn check(energy: Energy, lambdas: [f64; 3]) {
     for (seed, lambda) in lambdas.into_iter().enumerate() {

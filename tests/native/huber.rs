@@ -2,21 +2,10 @@
 //! and its passes at creases.
 
 use crate::native::common::conic::Instance;
-use crate::native::common::{cut, max_difference, noisy, rms_difference, unit_square};
+use crate::native::common::{max_difference, noisy, ring, rms_difference, unit_square};
 use developable::{
     Border, Energy, Heightfield, Lambda, Lattice, Normalization, Options, Report, StopReason, fit,
 };
-
-fn bumps(x: f64, y: f64) -> f64 {
-    0.15 * (5.0 * x + 1.0).sin() * (4.0 * y).cos() + 0.4 * (x - 0.4).abs()
-}
-
-/// Noise over bumps and a crease, a hole in the middle of them.
-fn ring(cols: usize, seed: u64) -> Heightfield {
-    cut(&noisy(&unit_square(cols, bumps), 0.02, seed), |x, y| {
-        (x - 0.45).hypot(y - 0.55) > 0.17
-    })
-}
 
 fn roof(x: f64, y: f64) -> f64 {
     (0.6 * (x - 0.5).abs()).max(0.1 + 0.3 * (y - 0.6))

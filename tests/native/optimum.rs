@@ -1,15 +1,11 @@
 //! The optimum against an independent conic solver.
 
 use crate::native::common::conic::Instance;
-use crate::native::common::{cut, noisy, unit_square};
+use crate::native::common::{bumps, cut, noisy, unit_square};
 use developable::{Heightfield, Lambda, Normalization, Options, Report, Schedule, StopReason, fit};
 
 fn check(field: &Heightfield, lambda: Lambda) -> Report {
     Instance::new(field, lambda.value()).check()
-}
-
-fn bumps(x: f64, y: f64) -> f64 {
-    0.15 * (5.0 * x + 1.0).sin() * (4.0 * y).cos() + 0.2 * (x - 0.4).abs()
 }
 
 #[test]

@@ -1,14 +1,10 @@
 //! Surfaces of several parts, each of which is solved for itself.
 
 use crate::native::common::conic::Instance;
-use crate::native::common::{cut, max_difference, noisy, unit_square};
+use crate::native::common::{bumps, cut, max_difference, noisy, unit_square};
 use developable::{
     Bridging, Heightfield, Input, Lattice, Normalization, Options, Solver, Status, StopReason, fit,
 };
-
-fn bumps(x: f64, y: f64) -> f64 {
-    0.15 * (5.0 * x + 1.0).sin() * (4.0 * y).cos() + 0.2 * (x - 0.4).abs()
-}
 
 /// Three islands of quite different shapes and sizes.
 fn island(x: f64, y: f64) -> Option<usize> {

@@ -450,9 +450,9 @@ fn a_cone_is_slit_and_becomes_a_sector() {
 
 #[test]
 fn domes_saddles_and_waves_are_cut_until_they_lie_flat() {
-    let dome = unit_square(80, |x, y| -0.5 * ((x - 0.5).powi(2) + (y - 0.5).powi(2)));
-    let saddle = unit_square(80, |x, y| 0.6 * ((x - 0.5).powi(2) - (y - 0.5).powi(2)));
-    let waves = unit_square(80, |x, y| 0.05 * (9.0 * x).sin() * (8.0 * y).cos());
+    let dome = unit_square(60, |x, y| -0.5 * ((x - 0.5).powi(2) + (y - 0.5).powi(2)));
+    let saddle = unit_square(60, |x, y| 0.6 * ((x - 0.5).powi(2) - (y - 0.5).powi(2)));
+    let waves = unit_square(60, |x, y| 0.05 * (9.0 * x).sin() * (8.0 * y).cos());
     for (name, surface) in [("dome", dome), ("saddle", saddle), ("waves", waves)] {
         for limit in [0.01, 0.003] {
             let sheets = check(name, &surface, limit);

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use crate::native::common::similarity;
 use developable::dewarp::{DewarpOptions, Registration, Verdict, WarpMap};
-use developable::unroll::{UnrollOptions, unroll};
+use developable::unroll::{UnrollOptions, Unrolling, unroll};
 use developable::{
     Camera, Distortion, Error, HeightImage, Heightfield, Intrinsics, Pose, Resolution, View, sample,
 };
@@ -173,11 +173,17 @@ impl Scene {
     }
 }
 
-fn map_of(scene: &Scene, view: View) -> (WarpMap, Verdict) {
-    let (surface, frame) = scene.surface(view);
-    let sheet = unroll(&surface, &UnrollOptions::default()).unwrap();
-    let registration = Registration::Camera(scene.camera(), frame);
+fn map_of_depths(scene: &Scene, depths: &HeightImage, view: View) -> (WarpMap, Unrolling) {
+    let mesh = intrinsics(scene.lens).back_project(depths).unwrap();
+    let seen = sample(&mesh, view, Resolution::Auto).unwrap();
+    let sheet = unroll(seen.heightfield(), &UnrollOptions::default()).unwrap();
+    let registration = Registration::Camera(scene.camera(), *seen.frame());
     let map = WarpMap::new(&sheet, registration, PHOTO, &DewarpOptions::default()).unwrap();
+    (map, sheet)
+}
+
+fn map_of(scene: &Scene, view: View) -> (WarpMap, Verdict) {
+    let (map, sheet) = map_of_depths(scene, &scene.depths(), view);
     let verdict = map.verdict(sheet.report());
     (map, verdict)
 }
@@ -424,12 +430,7 @@ fn a_page_is_cut_out_as_a_rectangle_to_its_very_corners() {
     let keep: Vec<u8> = (0..depths.values().len())
         .map(|i| u8::from(there(i) && inner(i)))
         .collect();
-    let camera = intrinsics(scene.lens);
-    let mesh = camera.back_project(&depths.masked(&keep).unwrap()).unwrap();
-    let seen = sample(&mesh, View::BestFit, Resolution::Auto).unwrap();
-    let sheet = unroll(seen.heightfield(), &UnrollOptions::default()).unwrap();
-    let registration = Registration::Camera(scene.camera(), *seen.frame());
-    let map = WarpMap::new(&sheet, registration, PHOTO, &DewarpOptions::default()).unwrap();
+    let (map, _) = map_of_depths(&scene, &depths.masked(&keep).unwrap(), View::BestFit);
     let corners = scene.corners(0.002);
     let page = map.clone().cut(Some(&corners), false, true).unwrap();
     assert!(page.places().iter().all(|place| !place[0].is_nan()));
@@ -473,7 +474,6 @@ fn a_page_is_cut_out_as_a_rectangle_to_its_very_corners() {
 fn the_share_of_a_page_that_is_missing_is_told() {
     let scene = Scene::new(0.3, 20.0);
     let depths = scene.depths();
-    let camera = intrinsics(scene.lens);
     let covered = [0.4, 0.5];
     let keep: Vec<u8> = (0..depths.values().len())
         .map(|i| {
@@ -483,11 +483,7 @@ fn the_share_of_a_page_that_is_missing_is_told() {
             u8::from(shares.is_some_and(|share| (0..2).any(|k| share[k] > covered[k])))
         })
         .collect();
-    let mesh = camera.back_project(&depths.masked(&keep).unwrap()).unwrap();
-    let seen = sample(&mesh, View::BestFit, Resolution::Auto).unwrap();
-    let sheet = unroll(seen.heightfield(), &UnrollOptions::default()).unwrap();
-    let registration = Registration::Camera(scene.camera(), *seen.frame());
-    let map = WarpMap::new(&sheet, registration, PHOTO, &DewarpOptions::default()).unwrap();
+    let (map, sheet) = map_of_depths(&scene, &depths.masked(&keep).unwrap(), View::BestFit);
     assert_eq!(map.loss(), 0.0);
     let corners = scene.corners(0.002);
     for trim in [false, true] {

@@ -38,7 +38,7 @@ fn one_to_sixteen_threads_give_the_same_bits() {
     let options = Options::default().lambda(1e6).max_iterations(12);
     let one = fit(&field, &options.threads(1)).unwrap();
     assert!(one.report().interior > 16 * 4096);
-    for threads in 2..=16 {
+    for threads in [2, 3, 5, 8, 11, 16] {
         let surface = fit(&field, &options.threads(threads)).unwrap();
         assert_eq!(surface.report().threads, threads);
         assert_eq!(surface.report().thread_limit, ThreadLimit::Options);

@@ -1,15 +1,11 @@
 //! Solving again from where a solver stands.
 
 use crate::native::common::conic::Instance;
-use crate::native::common::{cut, noisy, unit_square};
+use crate::native::common::{bumps, cut, noisy, unit_square};
 use developable::{
     Energy, Error, Heightfield, Input, Lattice, Occlusions, Options, Solver, Status, StopReason,
     Surface, fit,
 };
-
-fn bumps(x: f64, y: f64) -> f64 {
-    0.15 * (5.0 * x + 1.0).sin() * (4.0 * y).cos() + 0.2 * (x - 0.4).abs()
-}
 
 fn field(seed: u64) -> Heightfield {
     cut(&noisy(&unit_square(60, bumps), 0.02, seed), |x, y| {

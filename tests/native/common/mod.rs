@@ -68,20 +68,24 @@ pub fn noisy(field: &Heightfield, amplitude: f64, seed: u64) -> Heightfield {
 /// The field without the vertices where `keep` is false.
 pub fn cut(field: &Heightfield, keep: impl Fn(f64, f64) -> bool) -> Heightfield {
     let lattice = *field.lattice();
-    Heightfield::new(
-        lattice,
-        (0..lattice.len())
-            .map(|i| {
-                let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
-                if keep(x, y) {
-                    field.heights()[i]
-                } else {
-                    f64::NAN
-                }
-            })
-            .collect(),
-    )
-    .unwrap()
+    let heights = field.heights().iter().enumerate().map(|(i, height)| {
+        let [x, y] = lattice.position(i / lattice.cols(), i % lattice.cols());
+        if keep(x, y) { *height } else { f64::NAN }
+    });
+    Heightfield::new(lattice, heights.collect()).unwrap()
+}
+
+/// Bumps with a crease.
+pub fn bumps(x: f64, y: f64) -> f64 {
+    0.15 * (5.0 * x + 1.0).sin() * (4.0 * y).cos() + 0.2 * (x - 0.4).abs()
+}
+
+/// Noise over bumps with a sharper crease, a hole in the middle of them.
+pub fn ring(cols: usize, seed: u64) -> Heightfield {
+    let sharper = |x: f64, y: f64| bumps(x, y) + 0.2 * (x - 0.4).abs();
+    cut(&noisy(&unit_square(cols, sharper), 0.02, seed), |x, y| {
+        (x - 0.45).hypot(y - 0.55) > 0.17
+    })
 }
 
 /// Largest absolute difference where both have a height.

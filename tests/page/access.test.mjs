@@ -77,7 +77,7 @@ pageTest('everything can be done by keyboard', async (page) => {
   await settled(page);
   assert.equal(await page.evaluate(() => document.activeElement?.id), 'run', 'the focus goes to what solves it again');
   await runBy(page, () => page.keyboard.press('Enter'));
-}, { start: '#example=roof', unfolded: [] });
+}, { start: '#example=roof&size=200', unfolded: [] });
 
 pageTest('what has the focus can be seen to have it', async (page) => {
   for (const selector of ['#end-file', '#size', '#open', '#lambda', 'summary']) {

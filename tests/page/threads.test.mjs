@@ -28,6 +28,6 @@ pageTest('a large input is solved on all cores but the page’s own', async (pag
     return JSON.parse(bytes.toString());
   };
   assert.equal((await report()).threads, 1, 'a small one needs no more');
-  await runBy(page, () => page.locator('#size').selectOption('700'));
+  await runBy(page, () => page.evaluate(() => void (location.hash = '#example=cylinder&size=700&noise=0.02&lambda=1e7')));
   assert.deepEqual([(await report()).threads, (await report()).stopReason], [2, 'gap']);
 });

@@ -167,6 +167,8 @@ export function sharedTest(name, body, { drawn = false, start = SMALL_EXAMPLE } 
     // Where a test fails, the next one has a new tab.
     sharedTabs.delete(drawn);
     try {
+      // Behind another tab a frame takes a second or two.
+      await page.bringToFront();
       await page.evaluate(() => document.querySelectorAll('dialog').forEach((dialog) => dialog.close()));
       await page.goto(`${server.url}#`);
       await page.locator('#home').waitFor();

@@ -28,13 +28,7 @@ const NUMERIC_SETTINGS = ['gap', 'coarsening', 'occlusionThreshold'];
  */
 export function addressOf({ card, example, file, linked, stored, settings, whole, photo, unkept, view }, defaults) {
   const parameters = new URLSearchParams();
-  if (example) {
-    parameters.set('example', example.name);
-    parameters.set('size', String(example.size));
-    parameters.set('noise', String(example.noise));
-  }
-  if (file !== undefined) parameters.set('file', String(file));
-  for (const [name, value] of Object.entries(stored ?? {})) if (value !== undefined) parameters.set(name, String(value));
+  for (const [name, value] of Object.entries({ example: example?.name, size: example?.size, noise: example?.noise, file, ...stored })) if (value !== undefined) parameters.set(name, String(value));
   for (const [name, value] of Object.entries(settings)) {
     if (value === undefined || value === defaults[/** @type {keyof Settings} */ (name)]) continue;
     parameters.set(name, typeof value === 'number' && name === 'lambda' ? shortLambda(value) : String(value));

@@ -10,8 +10,7 @@ export class Events {
    * @param {(value: E[K]) => void} listener
    */
   on(event, listener) {
-    const listeners = (this.#listeners[event] ??= []);
-    listeners.push(listener);
+    (this.#listeners[event] ??= []).push(listener);
   }
 
   /** Resolves with the next of some events. @param {...keyof E} events */

@@ -173,7 +173,6 @@ export const SHEET_WORDS = {
   legend: ({ seams, folds }) => `Numbers are those of the smooth pieces.${seams > 0 ? ' Sides with the same letter belong together.' : ''}${folds > 0 ? ' M is a fold to a ridge, V to a valley.' : ''}`,
   edges: 'Click a fold to cut it, or the letter of a cut to fold it.',
   byNumber: 'Folds and cuts by number',
-  cancelled: 'Cancelled.',
   cut: 'Cut the sheets',
   pdf: 'to print at 100 %, in true size',
   svg: 'for a cutting plotter or a drawing program',

@@ -150,7 +150,7 @@ export class Handles {
   /**
    * Drags a handle until the pointer is lifted. The handle keeps its offset from the pointer, so that a finger need not cover it.
    * @param {PointerEvent} event that started the drag
-   * @param {Element} holder element that captures the pointer
+   * @param {GlobalEventHandlers & Element} holder element that captures the pointer
    * @param {number} handle
    * @param {PointerEvent} [since] latest move of the pointer, if it has moved already
    */
@@ -166,16 +166,12 @@ export class Handles {
     this.#buttons[handle]?.focus({ preventScroll: true });
     this.#magnify(handle);
     const drag = new AbortController();
-    /** @param {Event} next */
-    const follow = (next) => {
-      const moved = /** @type {PointerEvent} */ (next);
+    const follow = (/** @type {PointerEvent} */ moved) => {
       if (moved.pointerId !== event.pointerId) return;
       this.#callbacks.move(handle, to(moved), false);
       this.#magnify(handle);
     };
-    /** @param {Event} next */
-    const end = (next) => {
-      const last = /** @type {PointerEvent} */ (next);
+    const end = (/** @type {PointerEvent} */ last) => {
       if (last.pointerId !== event.pointerId) return;
       drag.abort();
       this.#magnifier.hide();
@@ -185,7 +181,7 @@ export class Handles {
     };
     const { signal } = drag;
     holder.addEventListener('pointermove', follow, { signal });
-    for (const type of ['pointerup', 'pointercancel']) holder.addEventListener(type, end, { signal });
+    for (const type of /** @type {const} */ (['pointerup', 'pointercancel'])) holder.addEventListener(type, end, { signal });
     // A quick drag may have only one move event, which has already happened.
     if (since) follow(since);
     event.preventDefault();

@@ -6,7 +6,7 @@ import { History } from '../history.js';
 import { keep, kept } from '../kept.js';
 import { assemblyOf, buildSteps, drawingImage, MAX_SIDE_MM, MIN_SIDE_MM, MM_PER_UNIT, sheetFigures, sheetsInWords, suggestedSide, trueSide } from '../pattern.js';
 import { hasCode, plainMessage } from '../error-messages.js';
-import { SHEET_WORDS } from '../messages.js';
+import { SAVE_WORDS, SHEET_WORDS } from '../messages.js';
 import { PAPERS } from '../page/paper.js';
 import { edgeAt, parsePairs, togglePair } from '../sheet-edges.js';
 import { figures } from '../views/legend.js';
@@ -132,7 +132,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     stop();
     waiting.end();
     preview.setAttribute('aria-busy', 'false');
-    status.textContent = SHEET_WORDS.cancelled;
+    status.textContent = SAVE_WORDS.cancelled;
     again.hidden = false;
     again.focus();
     offer.renew();

@@ -8,8 +8,7 @@
  * @param {number} truthScale unit of length per unit of `truth`
  */
 export function rmsError(heights, scale, truth, truthScale) {
-  let sum = 0;
-  let count = 0;
+  let [sum, count] = [0, 0];
   for (let i = 0; i < truth.length; i++) {
     const difference = heights[i] * scale - truth[i] * truthScale;
     if (Number.isNaN(difference)) continue;

@@ -1,7 +1,6 @@
 /**
  * Every test there is, in the order of what fails fastest. Those of JavaScript and of wasm run beside those of Rust, once what they need
- * is set up. The seconds are those on two
- * idle cores after `npm start`, of each step by itself (`benches/tests.md`).
+ * is set up. The seconds are those on two idle cores after `npm start`, of each step by itself (`benches/tests.md`).
  */
 import { buildInline } from '../build/inline.mjs';
 import { buildThreads } from '../build/threads.mjs';

@@ -94,11 +94,7 @@ export async function storeFiles(opened, { arePhotos, id: replacedId } = {}) {
 }
 
 /** A key that is equal for equal files. @param {readonly File[]} files */
-function fingerprint(files) {
-  return files.map(({ name, size, lastModified }) => `${name} ${size} ${lastModified}`).sort().join();
-}
+const fingerprint = (files) => files.map(({ name, size, lastModified }) => `${name} ${size} ${lastModified}`).sort().join();
 
 /** Size of all files together, in bytes. @param {readonly File[]} files */
-function sizeOf(files) {
-  return files.reduce((sum, { size }) => sum + size, 0);
-}
+const sizeOf = (files) => files.reduce((sum, { size }) => sum + size, 0);

@@ -177,9 +177,7 @@ export class Outline {
 }
 
 /** A node at a place. @param {Point} place @param {boolean} corner @returns {Node} */
-function nodeAt([x, y], corner) {
-  return { x, y, corner };
-}
+const nodeAt = ([x, y], corner) => ({ x, y, corner });
 
 /**
  * Points along a curve through points: cubic Hermite pieces, parametrised by the length of the chords, whose slope at a point is that of

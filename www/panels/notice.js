@@ -25,9 +25,7 @@ export function showNotice(message, kind = 'alert', action) {
 }
 
 /** Shows an error. @param {string} doing what could not be done @param {unknown} error */
-export function showError(doing, error) {
-  showNotice(errorMessage(doing, error));
-}
+export const showError = (doing, error) => showNotice(errorMessage(doing, error));
 
 /** Hides the notice. */
 export function hideNotice() {

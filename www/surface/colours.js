@@ -36,19 +36,13 @@ export const PATCH_COLOURS = [
 ];
 
 /** The colour of a patch. @param {number} patch its index */
-export function patchColour(patch) {
-  return PATCH_COLOURS[patch % PATCH_COLOURS.length];
-}
+export const patchColour = (patch) => PATCH_COLOURS[patch % PATCH_COLOURS.length];
 
 /** A colour in CSS notation. @param {Colour} colour */
-export function toCss([r, g, b]) {
-  return `rgb(${Math.round(r)} ${Math.round(g)} ${Math.round(b)})`;
-}
+export const toCss = ([r, g, b]) => `rgb(${Math.round(r)} ${Math.round(g)} ${Math.round(b)})`;
 
 /** A colour as an opaque pixel of a canvas. @param {Colour} colour */
-export function toPixel([r, g, b]) {
-  return new Uint32Array(Uint8ClampedArray.of(r, g, b, 255).buffer)[0];
-}
+export const toPixel = ([r, g, b]) => new Uint32Array(Uint8ClampedArray.of(r, g, b, 255).buffer)[0];
 
 /**
  * @typedef {object} Scale colour scale of values around 0

@@ -12,7 +12,7 @@ use super::offset::offset_outwards;
 use super::options::DrawingOptions;
 use super::pack::Place;
 use super::sheet::{DrawnSheet, PrintedTriangle};
-use super::tabs::{SeamSides, add_tabs};
+use super::tabs::{SeamSides, Wall, add_tabs, walls_of};
 use crate::error::{Error, Result, rounded};
 use crate::pattern::{Seam, Sheet};
 
@@ -75,12 +75,8 @@ impl DrawnSheet {
             })?,
             false => plain.clone(),
         };
-        let walls: Vec<[[f64; 2]; 2]> = (curves.iter())
-            .flat_map(|curve| {
-                let points = curve.points(FLATTENING_TOLERANCE_MM);
-                let pairs: Vec<_> = points.windows(2).map(|p| [p[0], p[1]]).collect();
-                pairs
-            })
+        let walls: Vec<Wall> = (curves.iter())
+            .flat_map(|curve| walls_of(&curve.points(FLATTENING_TOLERANCE_MM)))
             .collect();
         let (mut labels, mut leaders): (Vec<Vec<Label>>, Vec<Curve>) = Default::default();
         let mut outer: Vec<Label> = Vec::new();
@@ -134,8 +130,8 @@ impl DrawnSheet {
             outer.clear();
             leaders.clear();
         }
-        let folds: Vec<[[f64; 2]; 2]> = (lines.folds.iter().chain(&tabs))
-            .flat_map(|line| line.points.windows(2).map(|p| [p[0], p[1]]))
+        let folds: Vec<Wall> = (lines.folds.iter().chain(&tabs))
+            .flat_map(|line| walls_of(&line.points))
             .collect();
         let labels = Label::without_collisions(outer, labels, &walls, &folds);
         let unlettered = (sides.iter())

@@ -83,9 +83,9 @@ impl Drawing {
             .map(|(number, sheet)| apply_bend_allowance(number, sheet, options))
             .collect::<Result<Vec<_>>>()?;
         let lines: Vec<Lines> = sheets.iter().map(|s| Lines::new(s, options)).collect();
-        let marks = options.marks.map(|distance| mark_counts(&lines, distance));
         let outlines: Vec<_> = lines.iter().map(|own| &own.outlines[..]).collect();
         let sides = SeamSides::new(&outlines);
+        let marks = options.marks.map(|distance| mark_counts(&sides, distance));
         let named = SeamAnnotations {
             letters,
             marks: marks.unwrap_or_default(),

@@ -2,7 +2,7 @@
 
 use super::curve::Curve;
 use super::label::{Label, TEXT_SIZE_MM};
-use crate::math::planar::{distance, nearest_on_segment};
+use crate::math::planar::{distance, distance_to_segment};
 
 /// Number of directions in which a leader line from a small patch to its number is tried, evenly spaced over a full
 /// turn.
@@ -35,7 +35,7 @@ pub(super) fn place_leader(
         let free = walls.iter().all(|[p, q]| {
             let middle = [0, 1].map(|k| 0.5 * (p[k] + q[k]));
             distance(middle, place) > 1.5 * TEXT_SIZE_MM + 0.5 * distance(*p, *q)
-                || from_wall(place, [*p, *q]) > TEXT_SIZE_MM
+                || distance_to_segment(place, [*p, *q]) > TEXT_SIZE_MM
         });
         let apart = others
             .iter()
@@ -58,8 +58,4 @@ fn hit(from: [f64; 2], [x, y]: [f64; 2], [p, q]: [[f64; 2]; 2]) -> Option<f64> {
     let place = [0, 1].map(|k| p[k] + t * (q[k] - p[k]));
     let along = x * (place[0] - from[0]) + y * (place[1] - from[1]);
     (along > 0.0).then_some(along)
-}
-
-fn from_wall(point: [f64; 2], [from, to]: [[f64; 2]; 2]) -> f64 {
-    distance(point, nearest_on_segment(point, [from, to]))
 }

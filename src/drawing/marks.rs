@@ -6,32 +6,27 @@ use std::collections::BTreeMap;
 use super::curve::Curve;
 use super::label::TEXT_SIZE_MM;
 use super::line::{FLATTENING_TOLERANCE_MM, place_at};
-use super::lines::Lines;
+use super::tabs::SeamSides;
 use crate::pattern::Run;
 
 /// Computes the number of marks (short lines by which the two sides of a seam are aligned) on each seam, by the number
-/// of its crease; 0 if one of its sides is in several pieces.
-pub(super) fn mark_counts(lines: &[Lines<'_>], distance: f64) -> BTreeMap<usize, usize> {
-    let mut sides: BTreeMap<usize, Vec<(Option<u32>, f64)>> = BTreeMap::new();
-    for (run, curve) in lines.iter().flat_map(|own| own.outlines.iter().flatten()) {
-        if let Some(seam) = run.seam {
-            let side = (
-                run.patch,
-                polyline_length(&curve.points(FLATTENING_TOLERANCE_MM)),
-            );
-            sides.entry(seam.crease).or_default().push(side);
-        }
+/// of its crease; none if one of its sides is in several pieces.
+pub(super) fn mark_counts(sides: &SeamSides, distance: f64) -> BTreeMap<usize, usize> {
+    let mut lengths: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+    for (crease, side) in sides.whole() {
+        lengths
+            .entry(crease)
+            .or_default()
+            .push(polyline_length(side));
     }
-    let count = |sides: &Vec<(Option<u32>, f64)>| match sides[..] {
-        [(one, a), (other, b)] if one != other => {
-            ((0.5 * (a + b) / distance).round() as usize).saturating_sub(1)
-        }
-        _ => 0,
+    let count = |(crease, own): (&usize, &Vec<f64>)| match own[..] {
+        [a, b] => Some((
+            *crease,
+            ((0.5 * (a + b) / distance).round() as usize).saturating_sub(1),
+        )),
+        _ => None,
     };
-    sides
-        .iter()
-        .map(|(crease, own)| (*crease, count(own)))
-        .collect()
+    lengths.iter().filter_map(count).collect()
 }
 
 /// Draws the marks on one side of a seam: short lines normal to it and evenly spaced, so that the marks of the other

@@ -5,7 +5,10 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::curve::{Curve, MIN_CORNER_TURN};
 use super::line::{FLATTENING_TOLERANCE_MM, place_at};
-use crate::math::planar::{Point2, distance, polyline_length, segments_intersect};
+use crate::math::planar::{
+    Point2, distance, is_within, nearest_on_segment, orientation, polyline_length,
+    segments_intersect,
+};
 use crate::pattern::{Run, Seam};
 
 /// A tab (a glued flap at an edge), and the line that the tab is folded along.
@@ -60,6 +63,17 @@ pub(super) struct SeamSides(BTreeMap<(usize, Option<u32>), Option<Polyline>>);
 
 type Polyline = Vec<[f64; 2]>;
 
+/// A line segment that tabs and texts must not touch.
+pub(super) type Wall = [[f64; 2]; 2];
+
+/// What a tab must keep off.
+struct Surroundings<'a> {
+    /// The outlines of its sheet.
+    sheet: &'a [Wall],
+    /// What of them, and of the tabs so far, it may reach.
+    near: Vec<Wall>,
+}
+
 impl SeamSides {
     pub(super) fn new(outlines: &[&[Outline<'_>]]) -> Self {
         let mut sides = BTreeMap::new();
@@ -73,6 +87,12 @@ impl SeamSides {
             }
         }
         SeamSides(sides)
+    }
+
+    /// The sides in one piece, each with the number of its crease.
+    pub(super) fn whole(&self) -> impl Iterator<Item = (usize, &Polyline)> {
+        let sides = self.0.iter();
+        sides.filter_map(|((crease, _), side)| Some((*crease, side.as_ref()?)))
     }
 
     /// The side that a run is joined to, in the run's direction.
@@ -148,18 +168,13 @@ pub(super) fn add_tabs(
     let pieces: Vec<Vec<(Vec<Curve>, Vec<f64>)>> = (outlines.iter())
         .map(|outline| outline.iter().map(parts).collect())
         .collect();
-    // Segments that tabs must not touch: all outlines, and the tabs added so far.
-    let mut walls: Vec<[[f64; 2]; 2]> = Vec::new();
-    if depth.is_some() {
-        for piece in pieces.iter().flatten().flat_map(|(bases, _)| bases) {
-            walls.extend(
-                piece
-                    .points(FLATTENING_TOLERANCE_MM)
-                    .windows(2)
-                    .map(|p| [p[0], p[1]]),
-            );
-        }
-    }
+    let sheet: Vec<Wall> = match depth {
+        Some(_) => (pieces.iter().flatten().flat_map(|(bases, _)| bases))
+            .flat_map(|base| walls_of(&base.points(FLATTENING_TOLERANCE_MM)))
+            .collect(),
+        None => Vec::new(),
+    };
+    let mut all_walls = sheet.clone();
     let mut cuts = Vec::new();
     let mut numbers = 0..;
     for (outline, pieces) in outlines.iter().zip(pieces) {
@@ -174,20 +189,23 @@ pub(super) fn add_tabs(
             let runs: Vec<Vec<[f64; 2]>> = (bases.iter())
                 .map(|base| base.points(FLATTENING_TOLERANCE_MM))
                 .collect();
-            let near = walls_near(&runs, depth, &walls);
-            let own = common_depth(&runs, &turns, depth, &near);
+            let around = |runs: &[Polyline], all_walls: &[Wall]| Surroundings {
+                sheet: &sheet,
+                near: walls_near(runs, depth, all_walls),
+            };
+            let own = common_depth(&runs, &turns, depth, &around(&runs, &all_walls));
             for (number, base) in bases.into_iter().enumerate() {
                 let points = &runs[number];
                 let ends = end_turns(&turns, number);
-                let near = walls_near(&runs[number..=number], depth, &walls);
+                let around = around(&runs[number..=number], &all_walls);
                 let tab = (0..=MAX_TAB_HALVINGS)
-                    .find_map(|k| flap(points, ends, own / f64::from(1 << k), &near));
+                    .find_map(|k| flap(points, ends, own / f64::from(1 << k), &around));
                 let Some((depth, flap)) = tab else {
                     cut.append(&base);
                     continue;
                 };
                 let line = [points[0], flap[0], flap[1], points[points.len() - 1]];
-                walls.extend(line.windows(2).map(|p| [p[0], p[1]]));
+                all_walls.extend(walls_of(&line));
                 tabs.push(Tab {
                     seam,
                     patch: run.patch,
@@ -204,8 +222,12 @@ pub(super) fn add_tabs(
     (cuts, tabs)
 }
 
+pub(super) fn walls_of(line: &[[f64; 2]]) -> Vec<Wall> {
+    line.windows(2).map(|p| [p[0], p[1]]).collect()
+}
+
 /// The walls that a tab along some lines may touch.
-fn walls_near(runs: &[Vec<[f64; 2]>], depth: f64, walls: &[[[f64; 2]; 2]]) -> Vec<[[f64; 2]; 2]> {
+fn walls_near(runs: &[Polyline], depth: f64, walls: &[Wall]) -> Vec<Wall> {
     let ends = |k: usize| {
         let all = runs.iter().flatten().map(|p| p[k]);
         let low = all.clone().fold(f64::INFINITY, f64::min);
@@ -271,13 +293,13 @@ fn turns(points: &[[f64; 2]]) -> impl Iterator<Item = (f64, f64)> {
 
 /// Chooses one depth for the tabs along a run: the largest at which nearly as much of the run gets tabs as at any other.
 /// The few that do not fit at that depth are halved on their own.
-fn common_depth(runs: &[Vec<[f64; 2]>], turns: &[f64], depth: f64, walls: &[[[f64; 2]; 2]]) -> f64 {
+fn common_depth(runs: &[Polyline], turns: &[f64], depth: f64, around: &Surroundings<'_>) -> f64 {
     let depths: Vec<f64> = (0..=MAX_TAB_HALVINGS)
         .map(|k| depth / f64::from(1 << k))
         .collect();
     let tabbed = |depth: &f64| -> f64 {
         (0..runs.len())
-            .filter(|i| flap(&runs[*i], end_turns(turns, *i), *depth, walls).is_some())
+            .filter(|i| flap(&runs[*i], end_turns(turns, *i), *depth, around).is_some())
             .map(|i| polyline_length(&runs[i]))
             .sum()
     };
@@ -301,7 +323,7 @@ fn flap(
     base: &[[f64; 2]],
     turns: [Option<f64>; 2],
     depth: f64,
-    walls: &[[[f64; 2]; 2]],
+    around: &Surroundings<'_>,
 ) -> Option<(f64, [[f64; 2]; 2])> {
     let (from, to) = (base[0], base[base.len() - 1]);
     let long = distance(from, to);
@@ -309,7 +331,7 @@ fn flap(
         return None;
     }
     let steepest = STEEP_TAB_INSET_SHARE * long;
-    let notches = notches(base, walls);
+    let notches = notches(base, &around.near);
     // The inset of each end: a multiple of the depth, and a length.
     let ends = [0, 1].map(|end| match turns[end] {
         None => {
@@ -340,16 +362,27 @@ fn flap(
         ]
     };
     let corners = [beside(insets[0]), beside(long - insets[1])];
-    let line = [from, corners[0], corners[1], to];
-    let free = line.windows(2).all(|p| {
-        let piece = [p[0], p[1]];
-        walls.iter().all(|wall| !crosses(piece, *wall))
-    });
-    free.then_some((depth, corners))
+    is_free(base, [from, corners[0], corners[1], to], around).then_some((depth, corners))
+}
+
+/// Whether nothing crosses a tab, is within it, or lies below it: along a slit, where both sides are one line, no line crosses a tab on the sheet.
+fn is_free(base: &[[f64; 2]], line: [[f64; 2]; 4], around: &Surroundings<'_>) -> bool {
+    let sides = [[0, 1], [1, 2], [2, 3], [3, 0]].map(|side| side.map(|k| line[k]));
+    let is_beyond = |p: [f64; 2], side: Wall| {
+        orientation(side[0], side[1], p) <= 0.0 || same(p, nearest_on_segment(p, side))
+    };
+    let is_outside = |p: &[f64; 2]| {
+        sides.iter().any(|side| is_beyond(*p, *side)) || base.iter().any(|own| same(*own, *p))
+    };
+    let is_kept_off = |wall: &Wall| {
+        sides[..3].iter().all(|side| !crosses(*side, *wall)) && wall.iter().all(is_outside)
+    };
+    let outer = [0, 1].map(|k| 0.5 * (line[1][k] + line[2][k]));
+    around.near.iter().all(is_kept_off) && !is_within(outer, around.sheet.iter().copied())
 }
 
 /// The angles, in radians, at both ends of a tab's fold line, on its outer side, within which nothing else begins.
-fn notches(base: &[[f64; 2]], walls: &[[[f64; 2]; 2]]) -> [f64; 2] {
+fn notches(base: &[[f64; 2]], walls: &[Wall]) -> [f64; 2] {
     let last = base.len() - 1;
     [
         (base[0], base[1], base[last], -1.0),
@@ -374,7 +407,7 @@ fn same(p: [f64; 2], q: [f64; 2]) -> bool {
 }
 
 /// Returns whether two line segments cross, or touch elsewhere than at common ends.
-fn crosses([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
+fn crosses([a, b]: Wall, [c, d]: Wall) -> bool {
     if [a, b].iter().any(|p| same(*p, c) || same(*p, d)) {
         return false;
     }
@@ -394,12 +427,15 @@ mod tests {
         Curve::through(&(0..=400).map(point).collect::<Vec<_>>())
     }
 
-    /// Fold lines of the tabs along a curve, and the tabs' depths and outer corners.
-    #[allow(clippy::type_complexity)]
-    fn tabs_along(curve: &Curve, depth: f64) -> Vec<(Vec<[f64; 2]>, f64, [[f64; 2]; 2])> {
-        tabs_beside(curve, None, depth)
+    /// Walls that a tab may reach, of no sheet.
+    fn beside_walls(walls: &[Wall]) -> Surroundings<'static> {
+        Surroundings {
+            sheet: &[],
+            near: walls.to_vec(),
+        }
     }
 
+    /// Fold lines of the tabs along a curve, which is joined to what is `beside` it, and the tabs' depths and outer corners.
     #[allow(clippy::type_complexity)]
     fn tabs_beside(
         curve: &Curve,
@@ -410,10 +446,11 @@ mod tests {
         let runs: Vec<_> = (bases.iter())
             .map(|base| base.points(FLATTENING_TOLERANCE_MM))
             .collect();
-        let own = common_depth(&runs, &turns, depth, &[]);
+        let own = common_depth(&runs, &turns, depth, &beside_walls(&[]));
         (0..runs.len())
             .map(|i| {
-                let (depth, corners) = flap(&runs[i], end_turns(&turns, i), own, &[]).unwrap();
+                let (depth, corners) =
+                    flap(&runs[i], end_turns(&turns, i), own, &beside_walls(&[])).unwrap();
                 (runs[i].clone(), depth, corners)
             })
             .collect()
@@ -422,7 +459,7 @@ mod tests {
     #[test]
     fn tabs_outside_a_bend_are_equally_deep_and_not_cut_in_between() {
         // Counterclockwise: the right side is outside of the circle.
-        let tabs = tabs_along(&arc(40.0, 2.0), 6.0);
+        let tabs = tabs_beside(&arc(40.0, 2.0), None, 6.0);
         assert!(tabs.len() > 4);
         assert!(tabs.iter().all(|(_, depth, _)| *depth == 6.0));
         let insides = &tabs[1..tabs.len() - 1];
@@ -457,7 +494,7 @@ mod tests {
         let notch = 8f64.to_radians();
         let base = [[0.0, 0.0], [40.0, 0.0]];
         let side = [base[0], [40.0 * notch.cos(), -40.0 * notch.sin()]];
-        let (depth, corners) = flap(&base, [None; 2], 6.0, &[base, side]).unwrap();
+        let (depth, corners) = flap(&base, [None; 2], 6.0, &beside_walls(&[base, side])).unwrap();
         assert!(depth > 3.0 && depth < 6.0, "{depth}");
         for [x, y] in corners {
             assert!(
@@ -466,14 +503,61 @@ mod tests {
             );
         }
         // Where nothing is beside it, both ends are cut at 45°.
-        let (depth, corners) = flap(&base, [None; 2], 6.0, &[base]).unwrap();
+        let (depth, corners) = flap(&base, [None; 2], 6.0, &beside_walls(&[base])).unwrap();
         assert_eq!((depth, corners), (6.0, [[6.0, -6.0], [34.0, -6.0]]));
+    }
+
+    #[test]
+    fn a_closed_slit_has_no_tab_though_its_sides_are_divided_differently() {
+        // A square of 60 mm with a slit in it, whose lower side has a corner more; rounding moves it to either side of the upper one.
+        for rounding in [-1e-13, 0.0, 1e-13] {
+            let square = [
+                [0.0, 0.0],
+                [60.0, 0.0],
+                [60.0, 60.0],
+                [0.0, 60.0],
+                [0.0, 0.0],
+            ];
+            let slit = [
+                [10.0, 30.0],
+                [50.0, 30.0],
+                [30.0, 30.0 + rounding],
+                [10.0, 30.0],
+            ];
+            let sheet: Vec<Wall> = [walls_of(&square), walls_of(&slit)].concat();
+            let around = Surroundings {
+                sheet: &sheet,
+                near: sheet.clone(),
+            };
+            for base in [&slit[..2], &slit[1..3]] {
+                assert!(
+                    flap(base, [None; 2], 6.0, &around).is_none(),
+                    "{rounding} {base:?}"
+                );
+            }
+            // Along the border there is room.
+            assert!(flap(&square[..2], [None; 2], 6.0, &around).is_some());
+        }
+    }
+
+    #[test]
+    fn a_tab_is_not_put_around_what_is_smaller_than_it() {
+        let base = [[0.0, 0.0], [40.0, 0.0]];
+        let small = [[18.0, -2.0], [22.0, -2.0], [20.0, -4.0], [18.0, -2.0]];
+        let around = beside_walls(
+            &[base]
+                .into_iter()
+                .chain(walls_of(&small))
+                .collect::<Vec<_>>(),
+        );
+        assert!(flap(&base, [None; 2], 6.0, &around).is_none());
+        assert!(flap(&base, [None; 2], 1.5, &around).is_some());
     }
 
     #[test]
     fn tabs_inside_a_bend_meet_at_the_bisector_without_overlap() {
         // Clockwise: the right side is within the circle, where tabs converge.
-        let tabs = tabs_along(&arc(40.0, -2.0), 6.0);
+        let tabs = tabs_beside(&arc(40.0, -2.0), None, 6.0);
         for pair in tabs.windows(2) {
             let ([_, last], [first, _]) = (pair[0].2, pair[1].2);
             let gap = distance(last, first);

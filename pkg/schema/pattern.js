@@ -59,14 +59,14 @@ export const drawing = {
     default: 0,
     flag: { section: 'shape', value: 'MM', help: 'marks along seams that are joined, so far apart, the same on both sides (default: none)' },
   },
-  /** Width that a laser or a saw burns away, in millimetres: lines are cut half of it further out. */
+  /** Width that a laser or a saw burns away, in millimetres: lines are cut half of it further out, slits that would close where they are. */
   kerf: {
     kind: number,
     default: 0,
     flag: {
       section: 'shape',
       value: 'MM',
-      help: 'width that a laser or a saw burns away: lines are cut half of it further out (default 0)',
+      help: 'width that a laser or a saw burns away: lines are cut half of it further out, slits that would close where they are (default 0)',
     },
   },
   /** Width of the extra material outside of all edges, to be sewn or bent over, in millimetres. */

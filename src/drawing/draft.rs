@@ -13,7 +13,6 @@ use super::options::DrawingOptions;
 use super::pack::Place;
 use super::sheet::{DrawnSheet, PrintedTriangle};
 use super::tabs::{SeamSides, Wall, add_tabs, walls_of};
-use crate::error::{Error, Result, rounded};
 use crate::pattern::{Seam, Sheet};
 
 /// Assigns letters to the creases that are cut, by which both sides of a seam are labelled; returns the letters by the
@@ -60,19 +59,13 @@ impl DrawnSheet {
             swapped,
             sides,
         }: &'a SeamAnnotations,
-    ) -> Result<(Self, Vec<&'a str>)> {
+    ) -> (Self, Vec<&'a str>) {
         let scale = options.scale;
         let (plain, flaps) = add_tabs(&lines.outlines, options.tabs, swapped, sides);
         let out = options.allowance + 0.5 * options.kerf;
         let name = format!("Sheet {}", number + 1);
         let curves = match out > 0.0 {
-            true => offset_outwards(&plain, out, sheet.exact).ok_or_else(|| Error::Unsupported {
-                format: "pattern",
-                reason: format!(
-                    "the outline of {name} would cross itself {} mm further out; choose a smaller kerf and allowance",
-                    rounded(out)
-                ),
-            })?,
+            true => offset_outwards(&plain, out, sheet.exact),
             false => plain.clone(),
         };
         let walls: Vec<Wall> = (curves.iter())
@@ -161,6 +154,6 @@ impl DrawnSheet {
             leaders,
             labels,
         };
-        Ok((sheet.moved(&Place::IDENTITY), unlettered))
+        (sheet.moved(&Place::IDENTITY), unlettered)
     }
 }

@@ -62,8 +62,8 @@ impl Drawing {
     ///
     /// # Errors
     /// [`Error::Empty`] without a sheet, [`Error::Option`] for lengths that are negative or not finite, or if the
-    /// drawing is larger than [`MAX_SIZE`], [`Error::Unsupported`] for a kerf or an allowance at which an outline
-    /// would cross itself, or for folds that are not straight from edge to edge where metal is bent.
+    /// drawing is larger than [`MAX_SIZE`], [`Error::Unsupported`] for folds that are not straight from edge to edge where metal is
+    /// bent.
     pub fn new(sheets: &[Sheet], options: &DrawingOptions) -> Result<Self> {
         options.check()?;
         let (scale, tabs) = (options.scale, options.tabs);
@@ -95,7 +95,7 @@ impl Drawing {
         let (mut drawn, unlettered): (Vec<DrawnSheet>, Vec<Vec<&str>>) =
             (sheets.iter().zip(&lines).enumerate())
                 .map(|(number, (sheet, own))| DrawnSheet::new(number, sheet, own, options, &named))
-                .collect::<Result<_>>()?;
+                .unzip();
         // A letter on one side names nothing.
         let unlettered: BTreeSet<&str> = unlettered.into_iter().flatten().collect();
         for sheet in &mut drawn {

@@ -28,7 +28,6 @@ mod label;
 mod leader;
 mod line;
 mod lines;
-mod loops;
 mod marks;
 mod nest;
 mod offset;

@@ -1,90 +1,58 @@
 //! Offsets the outlines of sheets outwards, by half the kerf and the allowance.
 
+use std::f64::consts::FRAC_PI_3;
+
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::float::clip::FloatClip;
+use i_overlay::mesh::float::outline::offset::OutlineOffset;
+use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
+use i_overlay::string::clip::ClipRule;
+
 use super::circle::with_arcs;
-use super::curve::{CIRCLE_TOLERANCE_MM, Curve, MIN_CORNER_TURN};
+use super::curve::{CIRCLE_TOLERANCE_MM, Curve};
 use super::line::FLATTENING_TOLERANCE_MM;
-use super::loops::remove_loops;
 use super::smooth::curve_through;
-use crate::math::planar::polygon_area;
-use crate::unroll::flat_triangle::Point;
-use crate::unroll::overlap::crossings;
 
-/// Minimum offset, in millimetres, from which the maximum size of the loops that are cut off is measured.
-const OFFSET_DETAIL_MM: f64 = 1.0;
+/// Minimum angle, in radians, of a corner that stays a corner; one that is more pointed is cut off at the offset distance.
+const MIN_MITRE_ANGLE: f64 = FRAC_PI_3;
 
-/// Maximum distance of an offset corner from the corner itself, as a multiple of the offset.
-const MAX_MITRE_FACTOR: f64 = 2.0;
-
-/// Maximum size of the loops of an offset line that are cut off, as a multiple of the offset distance. Such loops arise
-/// at slits.
-const MAX_LOOP_FACTOR: f64 = 8.0;
-
-/// Offsets the closed lines around a sheet outwards by a distance in millimetres. Loops in which an offset line crosses
-/// itself, as in a slit narrower than the offset, are cut off. Around an `exact` sheet straight lines and arcs stay what they are.
-/// `None` if lines cross nevertheless.
-pub(super) fn offset_outwards(curves: &[Curve], distance: f64, exact: bool) -> Option<Vec<Curve>> {
-    let mut moved = Vec::new();
-    for curve in curves {
-        let mut ring: Vec<Point> = (curve.points(CIRCLE_TOLERANCE_MM).into_iter())
-            .map(|[x, y]| Point::new(x, y))
-            .collect();
-        // Remove coinciding points, and the last point, which equals the first.
-        ring.dedup_by(|p, q| (*p - *q).norm() < 1e-6);
-        if ring.len() > 1 && (ring[0] - ring[ring.len() - 1]).norm() < 1e-6 {
-            ring.pop();
-        }
-        if ring.len() < 3 {
-            continue;
-        }
-        let raw = beside(&ring, distance);
-        let clean = remove_loops(raw, MAX_LOOP_FACTOR * distance.max(OFFSET_DETAIL_MM));
-        // A hole that is narrower than the offset disappears.
-        if polygon_area(&clean) * polygon_area(&ring) > 0.0 {
-            moved.push(clean);
-        }
-    }
-    if crosses(&moved) {
-        return None;
-    }
-    let curve = |ring: Vec<Point>| {
-        let closed = ring.iter().chain(ring.first());
-        let closed: Vec<[f64; 2]> = closed.map(|p| [p.re, p.im]).collect();
-        match exact {
-            true => with_arcs(&closed),
-            false => curve_through(&closed, FLATTENING_TOLERANCE_MM),
-        }
+/// Offsets the closed lines around a sheet outwards by a distance in millimetres. What the enlarged sheet covers of them, as slits and
+/// holes that are narrower than twice the distance, is returned as well, there and back: it is cut where it is.
+/// Around an `exact` sheet straight lines and arcs stay what they are.
+pub(super) fn offset_outwards(curves: &[Curve], distance: f64, exact: bool) -> Vec<Curve> {
+    let smooth = |line: &[[f64; 2]]| match exact {
+        true => with_arcs(line),
+        false => curve_through(line, FLATTENING_TOLERANCE_MM),
     };
-    Some(moved.into_iter().map(curve).collect())
-}
-
-/// Offsets a closed polyline to its right by a distance in millimetres, corner by corner.
-fn beside(ring: &[Point], distance: f64) -> Vec<Point> {
-    let n = ring.len();
-    let mut out = Vec::with_capacity(n);
-    for i in 0..n {
-        let (before, here, after) = (ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]);
-        let [u, v] = [here - before, after - here].map(|p| p / p.norm());
-        let turn = (u.conj() * v).arg();
-        let [p, q] = [u, v].map(|along| here + along * Point::new(0.0, -distance));
-        // Intersection of both offset sides, relative to the corner.
-        let half = (0.5 * turn).cos();
-        let tip = (u + v) / (u + v).norm() * Point::new(0.0, -distance / half);
-        if turn.abs() < MIN_CORNER_TURN || (turn > 0.0 && 1.0 <= MAX_MITRE_FACTOR * half) {
-            out.push(here + tip);
-        } else {
-            out.extend([p, q]);
+    let lines: Vec<_> = (curves.iter())
+        .map(|curve| curve.points(CIRCLE_TOLERANCE_MM))
+        .collect();
+    let rings: Vec<&[[f64; 2]]> = lines.iter().map(|line| &line[1..]).collect();
+    let outer = rings.outline(&style(distance)).concat();
+    let covering = outer.outline(&style(-distance - CIRCLE_TOLERANCE_MM));
+    let strictly_inside = ClipRule {
+        invert: false,
+        boundary_included: false,
+    };
+    let covered = lines.clip_by(&covering, FillRule::NonZero, strictly_inside);
+    let around = outer.into_iter().map(|mut ring| {
+        ring.extend(ring.first().copied());
+        smooth(&ring)
+    });
+    let there_and_back = covered.into_iter().map(|mut line| {
+        if line.first() != line.last() {
+            let back: Vec<_> = line.iter().rev().skip(1).copied().collect();
+            line.extend(back);
         }
-    }
-    out
+        smooth(&line)
+    });
+    around.chain(there_and_back).collect()
 }
 
-fn crosses(rings: &[Vec<Point>]) -> bool {
-    let mut edges: Vec<[u32; 2]> = Vec::new();
-    for ring in rings {
-        let (first, n) = (edges.len() as u32, ring.len() as u32);
-        edges.extend((0..n).map(|k| [first + k, first + (k + 1) % n]));
-    }
-    !crossings(&rings.concat(), &edges).is_empty()
+fn style(distance: f64) -> OutlineStyle<f64> {
+    let mitred = OutlineStyle::new(distance).line_join(LineJoin::Miter(MIN_MITRE_ANGLE));
+    // Points of curves stay single.
+    mitred.miter_min_turn(0.0)
 }
 
 #[cfg(test)]
@@ -115,9 +83,10 @@ mod tests {
             Curve::through(&hole),
             Curve::through(&small),
         ];
-        let found = offset_outwards(&all, 2.0, false).unwrap();
-        // The smallest hole has been filled.
-        assert_eq!(found.len(), 2);
+        let found = offset_outwards(&all, 2.0, false);
+        // The smallest hole is filled, and cut where it was.
+        assert_eq!(found.len(), 3);
+        assert!((polyline_length(&found[2].points(0.01)) - 12.0).abs() < 0.01);
         for (curve, [low, high]) in found.iter().zip([[-2.0, 42.0], [12.0, 28.0]]) {
             let [from, to] = bounds(curve);
             for k in 0..2 {
@@ -144,7 +113,7 @@ mod tests {
             .map(|(sin, cos)| [30.0 + 8.0 * cos, 20.0 + 8.0 * sin])
             .collect();
         let all = [with_arcs(&plate), with_arcs(&hole)];
-        let found = offset_outwards(&all, 0.1, true).unwrap();
+        let found = offset_outwards(&all, 0.1, true);
         assert_eq!(found[0].pieces().count(), 4);
         let (centre, radius) = found[1].circle().unwrap();
         assert!((radius - 7.9).abs() < 1e-3, "{radius}");
@@ -154,29 +123,72 @@ mod tests {
         );
     }
 
+    /// A square of 40 mm with a slit from the right to its middle, whose mouth is `wide`.
+    fn slit(wide: f64) -> Curve {
+        let (middle, above) = (20.0 + 0.5 * wide, 20.0 + wide);
+        through(
+            [0.0, 40.0, 40.0, 20.0, 40.0, 40.0, 0.0, 0.0],
+            [0.0, 0.0, 20.0, middle, above, 40.0, 40.0, 0.0],
+        )
+    }
+
+    fn through<const N: usize>(x: [f64; N], y: [f64; N]) -> Curve {
+        Curve::through(&std::array::from_fn::<_, N, _>(|k| [x[k], y[k]]))
+    }
+
+    fn lengths(curves: &[Curve]) -> Vec<f64> {
+        curves
+            .iter()
+            .map(|curve| polyline_length(&curve.points(0.01)))
+            .collect()
+    }
+
     #[test]
-    fn a_slit_that_is_narrower_closes() {
-        // A square with a slit from the right to its middle, one wide.
-        let line = [
-            [0.0, 0.0],
-            [40.0, 0.0],
-            [40.0, 20.0],
-            [20.0, 20.5],
-            [40.0, 21.0],
-            [40.0, 40.0],
-            [0.0, 40.0],
-            [0.0, 0.0],
-        ];
-        let found = offset_outwards(&[Curve::through(&line)], 2.0, false).unwrap();
-        assert_eq!(found.len(), 1);
-        let around = polyline_length(&found[0].points(0.01));
-        assert!((around - 4.0 * 44.0).abs() < 2.0, "{around}");
-        // A beam's width leaves most of it.
-        let found = offset_outwards(&[Curve::through(&line)], 0.1, false).unwrap();
-        let around = polyline_length(&found[0].points(0.01));
+    fn a_closed_slit_is_cut_where_it_is() {
+        for exact in [false, true] {
+            for out in [0.1, 5.0] {
+                let found = lengths(&offset_outwards(&[slit(0.0)], out, exact));
+                assert_eq!(found.len(), 2, "{found:?}");
+                assert!(
+                    (found[0] - 4.0 * (40.0 + 2.0 * out)).abs() < 0.01,
+                    "{found:?}"
+                );
+                // There and back, up to the border.
+                assert!((found[1] - 40.0).abs() < 0.2, "{found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_slit_is_cut_along_both_sides_where_it_is_narrower() {
+        // A beam's width leaves sixteen of its twenty millimetres.
+        let found = lengths(&offset_outwards(&[slit(1.0)], 0.1, true));
         assert!(
-            (around - (4.0 * 40.2 + 2.0 * 16.0 - 1.0)).abs() < 4.0,
-            "{around}"
+            (found[0] - (4.0 * 40.2 - 0.8 + 2.0 * 16.1)).abs() < 0.1,
+            "{found:?}"
         );
+        let covered: f64 = found[1..].iter().sum();
+        assert!((covered - 4.0 * 4.0).abs() < 1.0, "{found:?}");
+        // An allowance that fills it leaves the slit.
+        let found = lengths(&offset_outwards(&[slit(1.0)], 2.0, true));
+        assert!((found[0] - 4.0 * 44.0).abs() < 0.01, "{found:?}");
+        assert!(found[1..].iter().sum::<f64>() > 4.0 * 19.0, "{found:?}");
+    }
+
+    #[test]
+    fn lines_that_meet_further_out_leave_one_outline() {
+        // Two teeth whose tips are 1 mm apart, with a bay between them.
+        let teeth = through(
+            [0.0, 30.0, 30.0, 15.5, 20.0, 10.0, 14.5, 0.0, 0.0],
+            [0.0, 0.0, 20.0, 20.0, 10.0, 10.0, 20.0, 20.0, 0.0],
+        );
+        let found = lengths(&offset_outwards(&[teeth], 1.0, true));
+        assert!(
+            (found[0] - (2.0 * 32.0 + 2.0 * 22.0)).abs() < 0.01,
+            "{found:?}"
+        );
+        // The bay has become a hole, and its mouth is cut where it was.
+        let bay = 8.0 + 2.0 * 4.5f64.hypot(10.0);
+        assert!(found[1] > 0.6 * bay && found[1] < bay, "{found:?}");
     }
 }

@@ -21,10 +21,10 @@ pub struct DrawingOptions {
     /// sides. Default: no marks.
     pub marks: Option<f64>,
     /// Kerf: width of the line that a laser or a saw takes away, in millimetres. Cut lines are moved outwards by half
-    /// of it. Default 0.
+    /// of it, but for slits and holes that would close: these are cut where they are. Default 0.
     pub kerf: f64,
     /// Allowance: width of the strip outside of all edges that is sewn or bent over, in millimetres. Cut lines are
-    /// moved outwards by it. Default 0.
+    /// moved outwards by it, but for slits and holes that would close. Default 0.
     pub allowance: f64,
     /// How metal is bent along folds, from which the bend allowance follows. Folds must be straight and go from edge to
     /// edge. Default: no bend allowance.

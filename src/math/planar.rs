@@ -157,11 +157,6 @@ fn polygon_edges<P: Planar>(polygon: &[P]) -> impl Iterator<Item = [P; 2]> {
     (0..polygon.len()).map(move |i| [polygon[i], polygon[next(i)]])
 }
 
-/// Perimeter of a closed polygon.
-pub(crate) fn polygon_perimeter<P: Planar>(polygon: &[P]) -> f64 {
-    polygon_edges(polygon).map(|[a, b]| distance(a, b)).sum()
-}
-
 /// Signed area of a closed polygon: above 0 if its corners are in anticlockwise order.
 pub(crate) fn polygon_area<P: Planar>(polygon: &[P]) -> f64 {
     0.5 * polygon_edges(polygon)
@@ -305,14 +300,12 @@ mod tests {
     ];
 
     #[test]
-    fn area_and_perimeter_of_a_polygon() {
+    fn area_of_a_polygon_and_length_of_a_line() {
         let clockwise: Vec<Point2> = (L_SHAPE.iter().rev())
             .map(|p| Point2::from_xy(*p))
             .collect();
         assert_eq!(polygon_area(&L_SHAPE), 14.0);
         assert_eq!(polygon_area(&clockwise), -14.0);
-        assert_eq!(polygon_perimeter(&L_SHAPE), 18.0);
-        assert_eq!(polygon_perimeter(&clockwise), 18.0);
         assert_eq!(polyline_length(&L_SHAPE), 13.0);
     }
 

@@ -18,52 +18,39 @@ pub(super) fn is_convex(corners: &[[f64; 2]; 4]) -> bool {
 ///
 /// # Errors
 /// [`Error::Edges`].
-pub(super) fn arrange([first, second]: &mut [TracedLine; 2]) -> Result<()> {
-    let corners = |first: &TracedLine, second: &TracedLine| {
-        let ([a, b], [d, c]) = (first.ends(), second.ends());
-        [a, b, c, d]
+pub(super) fn arrange(pair: &mut [TracedLine; 2]) -> Result<()> {
+    let names = pair.each_ref().map(|line| line.name);
+    // Whether the corners make a page that is seen from the front, and from behind.
+    let senses = |pair: &[TracedLine; 2]| {
+        let [[a, b], [d, c]] = pair.each_ref().map(TracedLine::ends);
+        [is_convex(&[a, b, c, d]), is_convex(&[d, c, b, a])]
     };
-    let is_behind = |[a, b, c, d]: [[f64; 2]; 4]| is_convex(&[d, c, b, a]);
-    let given = corners(first, second);
-    if !is_convex(&given) && !is_behind(given) {
-        // One of them may run backwards; which one, the sense of the corners tells.
-        second.points.reverse();
-        let found = corners(first, second);
-        if is_behind(found) {
-            first.points.reverse();
-            second.points.reverse();
-        } else if !is_convex(&found) {
-            return Err(Error::edges(format!(
-                "the ends of the {} and {} edges are no corners of a page: they do not make a \
-                     convex quadrilateral",
-                first.name, second.name
-            )));
-        }
-    } else if is_behind(given) {
-        // Both run backwards, or each is called by the other's name.
-        let sideways = first.name == "right";
-        let runs = |line: &TracedLine| {
-            let [from, to] = line.ends();
-            let k = usize::from(sideways);
-            to[k] - from[k]
-        };
-        if runs(first) >= 0.0 || runs(second) >= 0.0 {
-            return Err(Error::edges(format!(
-                "the {} and {} edges show the page from behind: exchange them, or list the \
-                     points of both from {}",
-                first.name,
-                second.name,
-                if sideways {
-                    "top to bottom"
-                } else {
-                    "left to right"
-                }
-            )));
-        }
-        first.points.reverse();
-        second.points.reverse();
+    // One of them may run backwards; which one, the sense of the corners tells.
+    let is_crossed = senses(pair) == [false; 2];
+    if is_crossed {
+        pair[1].points.reverse();
     }
-    check_no_crossing(first, second)
+    let [is_seen, is_behind] = senses(pair);
+    if !is_seen && !is_behind {
+        return Err(Error::edges(format!(
+            "the ends of the {} and {} edges are no corners of a page: they do not make a convex quadrilateral",
+            names[0], names[1]
+        )));
+    }
+    if is_behind {
+        // Both run backwards, or each is called by the other's name.
+        let axis = usize::from(names[0] == "right");
+        let runs_on = |line: &TracedLine| line.ends()[1][axis] >= line.ends()[0][axis];
+        if !is_crossed && pair.iter().any(runs_on) {
+            let way = ["left to right", "top to bottom"][axis];
+            return Err(Error::edges(format!(
+                "the {} and {} edges show the page from behind: exchange them, or list the points of both from {way}",
+                names[0], names[1]
+            )));
+        }
+        pair.iter_mut().for_each(|line| line.points.reverse());
+    }
+    check_no_crossing(&pair[0], &pair[1])
 }
 
 /// At most about as many points of a traced edge as crossings and places beside it are looked for with, its ends among them.

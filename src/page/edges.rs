@@ -18,15 +18,6 @@ impl Trace {
     pub fn has_ends_alone(&self) -> bool {
         matches!(self, Trace::Points(points) if points.len() == 2)
     }
-
-    /// Returns this trace with each of its points replaced.
-    pub(super) fn map_points(&self, map: impl Fn([f64; 2]) -> [f64; 2]) -> Trace {
-        let mapped = |points: &[[f64; 2]]| points.iter().map(|point| map(*point)).collect();
-        match self {
-            Trace::Points(points) => Trace::Points(mapped(points)),
-            Trace::Beziers(points) => Trace::Beziers(mapped(points)),
-        }
-    }
 }
 
 /// The traced edges of a page: the two that are bent, or all four. Each runs from left to right, or from top to bottom;

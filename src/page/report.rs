@@ -1,7 +1,5 @@
 //! Report on a page that was found in a photo: the verdict on its fit and the measures behind that.
 
-use super::working_photo::PhotoScale;
-
 /// Verdict on a flat page: whether it can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
@@ -142,15 +140,6 @@ impl PageReport {
             lines: self.lines + other.lines,
             lines_found: self.lines_found + other.lines_found,
             ..one
-        }
-    }
-
-    /// Converts what is in pixels of the working photo to pixels of the photo.
-    pub(super) fn in_full_photo(self, scale: PhotoScale) -> Self {
-        PageReport {
-            focal_length: scale.block * self.focal_length,
-            residual: scale.block * self.residual,
-            ..self
         }
     }
 }

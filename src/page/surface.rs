@@ -8,7 +8,6 @@ use super::read_traces::{page_that_fills, read_traces};
 use super::report::PageReport;
 use super::sheet::{SheetPage, node_shares};
 use super::traced_line::BentEdges;
-use super::working_photo::WorkingPhoto;
 use crate::dewarp::{DewarpOptions, Photo, WarpMap};
 use crate::error::{Error, Readable, Result, positive, try_filled};
 use crate::math::lanes;
@@ -68,18 +67,8 @@ impl PageSurface {
         photo: &Photo<'_>,
         options: &PageOptions,
     ) -> Result<Self> {
-        let working = WorkingPhoto::new(photo);
-        let scale = working.scale;
-        let edges: Vec<Edges> = edges.iter().map(|own| scale.working_edges(own)).collect();
-        let text: Vec<Vec<Trace>> = (text.iter())
-            .map(|lines| lines.iter().map(|line| scale.working_trace(line)).collect())
-            .collect();
-        let [width, height] = working.size();
-        let reduced = Photo::new(width, height, working.rgba())?;
-        let known = scale.working_options(options);
-        let found = Self::solved(&edges, &text, [width, height], Some(&reduced), &known)?;
-        let pages = (found.pages.into_iter()).map(|page| page.in_full_photo(scale));
-        Self::joined(pages.collect(), found.axis, scale.photo, options)
+        let size = [photo.width(), photo.height()];
+        Self::solved(edges, text, size, Some(photo), options)
     }
 
     /// Finds the page that fills a photo, so that none of its edges is seen: its lines of print alone show how it is bent. The
@@ -88,23 +77,16 @@ impl PageSurface {
     /// # Errors
     /// [`Error::NoPage`] if there are too few lines of print; [`Error::Option`] for a number out of its range.
     pub fn by_print(photo: &Photo<'_>, options: &PageOptions) -> Result<Self> {
-        let working = WorkingPhoto::new(photo);
-        let size = working.size();
-        let reduced = Photo::new(size[0], size[1], working.rgba())?;
-        let known = PageOptions {
-            format: Format::Unknown,
-            ..working.scale.working_options(options)
-        };
-        let page = SheetPage::new(&page_that_fills(size), size, Some(&reduced), &known)?;
-        if !page.has_print() {
-            return Err(Error::NoPage);
-        }
-        let page = page.in_full_photo(working.scale);
+        let size = [photo.width(), photo.height()];
         let known = PageOptions {
             format: Format::Unknown,
             ..*options
         };
-        Self::joined(vec![page], 0, working.scale.photo, &known)
+        let page = SheetPage::new(&page_that_fills(size), size, Some(photo), &known)?;
+        if !page.has_print() {
+            return Err(Error::NoPage);
+        }
+        Self::joined(vec![page], 0, size, &known)
     }
 
     fn solved(

@@ -39,7 +39,7 @@ impl Planes {
     /// Reduces a photo by averages of square blocks of pixels, to a longer side of at most 800 pixels.
     pub fn from_photo(photo: &Photo<'_>) -> Self {
         let photo = WorkingPhoto::new(photo);
-        let [w, h] = photo.size();
+        let [w, h] = photo.size;
         let block = w.max(h).div_ceil(MAX_REDUCED_SIDE);
         let reduction = BoxReduction::new([w, h], block);
         let [width, height] = reduction.size();
@@ -56,7 +56,7 @@ impl Planes {
             width,
             height,
             channels,
-            scale: block as f64 * photo.scale.block,
+            scale: (photo.block * block) as f64,
         }
     }
 

@@ -16,7 +16,10 @@ pub(super) fn find_level_lines(
     view: &PhotoView,
     photo: &GreyPhoto,
 ) -> Vec<LevelLine> {
-    let found = find_baselines(table.seen_size(), |share| photo.at(table.at(share)));
+    let size = table
+        .seen_size()
+        .map(|side| side / photo.working_block as f64);
+    let found = find_baselines(size, |share| photo.at(table.at(share)));
     let seen = |share: &[f64; 2]| (*share, view.to_normalised(table.at(*share)));
     (found.iter())
         .filter_map(|line| level_line(line.iter().map(seen).collect()))

@@ -35,14 +35,6 @@ impl PlaceTable {
         Ok(PlaceTable { cols, rows, places })
     }
 
-    /// Returns this table with each place in the photo replaced.
-    pub fn map_places(mut self, map: impl Fn([f64; 2]) -> [f64; 2]) -> Self {
-        for place in &mut self.places {
-            *place = map(*place);
-        }
-        self
-    }
-
     /// Width and height of the page in the photo, in pixels, along the lines through its middle.
     pub fn seen_size(&self) -> [f64; 2] {
         let length = |count: usize, share: fn(f64) -> [f64; 2]| {

@@ -13,7 +13,7 @@ use super::view::PhotoView;
 use crate::dewarp::Photo;
 use crate::math::planar::{distance, line_intersection};
 use crate::page::report::PageModel;
-use crate::page::text::{GreyPhoto, ink_block};
+use crate::page::text::GreyPhoto;
 use crate::page::traced_line::BentEdges;
 use crate::progress;
 
@@ -188,7 +188,7 @@ pub(super) fn find_sheet(
     let coarse = problem.with_lowest_cost(coarse, &starts[1..]);
     progress::reach(0.1);
     let table = PlaceTable::new(&coarse.grid, view).ok()?;
-    let photo = photo.map(|photo| GreyPhoto::new(photo, ink_block(table.seen_size()[0])));
+    let photo = photo.map(|photo| GreyPhoto::new(photo, table.seen_size()[0]));
     let print = PagePrint {
         traced: &traces.lines,
         photo: photo.as_ref(),

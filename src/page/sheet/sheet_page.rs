@@ -15,7 +15,6 @@ use crate::page::known_sizes::{focal_length, principal_point, sides};
 use crate::page::options::PageOptions;
 use crate::page::report::{PageDoubt, PageModel, PageReport, PageVerdict};
 use crate::page::traced_line::{EDGE_SEGMENTS, TracedPage};
-use crate::page::working_photo::PhotoScale;
 use crate::scene::camera::has_camera_proportions;
 
 /// A page of any shape in space: a nearly isometric sheet that bends little, fitted to the page's outline and lines of
@@ -175,18 +174,6 @@ impl SheetPage {
     /// Places in the photo, in pixels, at the nodes of a grid over the flat page, bilinear in between.
     pub fn table(&self) -> &PlaceTable {
         &self.table
-    }
-
-    /// Returns this page as it is seen in the photo itself instead of its working photo.
-    pub fn in_full_photo(mut self, scale: PhotoScale) -> Self {
-        for place in self.lines.iter_mut().flatten() {
-            *place = scale.to_photo(*place);
-        }
-        SheetPage {
-            table: self.table.map_places(|place| scale.to_photo(place)),
-            report: self.report.in_full_photo(scale),
-            ..self
-        }
     }
 
     /// Vertices of the page in space, row by row from the upper left corner, with their texture coordinates in a photo of

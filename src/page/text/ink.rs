@@ -1,6 +1,7 @@
 //! Ink image of a page: the page's darkness relative to its paper, flattened by the surface that was found from the
 //! edges.
 
+use super::grey_photo::MAX_PAGE_WIDTH;
 use crate::dewarp::bilinear;
 use crate::page::outline::square_extreme;
 
@@ -11,27 +12,19 @@ pub(super) struct InkImage {
     pub data: Vec<f32>,
 }
 
-/// Maximum width of the ink image, in pixels: the x-height of body text on A4 is 8 pixels then.
-const MAX_INK_WIDTH: f64 = 1000.0;
-
 /// Number of blocks across the page in each of which the paper's brightness is measured.
 const PAPER_BLOCKS_ACROSS: usize = 40;
 
 /// Quantile of the brightness of a block's pixels that is taken for the paper's brightness.
 const PAPER_QUANTILE: f64 = 0.85;
 
-/// Side, in pixels of a photo, of the squares that are averaged for the ink image of a page that is seen `width` pixels wide.
-pub(in crate::page) fn ink_block(width: f64) -> usize {
-    (width / MAX_INK_WIDTH).round().max(1.0) as usize
-}
-
 impl InkImage {
     /// Computes the ink image of a page that is seen with `size` (width and height, in pixels); `brightness` gives the photo's
     /// at shares of the page's width and height.
     pub fn new([seen, down]: [f64; 2], brightness: impl Fn([f64; 2]) -> f32) -> Self {
-        let scale = (MAX_INK_WIDTH / seen).min(1.0);
+        let scale = (MAX_PAGE_WIDTH / seen).min(1.0);
         let [width, height] =
-            [seen * scale, (down * scale).min(4.0 * MAX_INK_WIDTH)].map(|n| n.max(1.0) as usize);
+            [seen * scale, (down * scale).min(4.0 * MAX_PAGE_WIDTH)].map(|n| n.max(1.0) as usize);
         let share = |at: usize, count: usize| (at as f64 + 0.5) / count as f64;
         let mut data: Vec<f32> = (0..width * height)
             .map(|i| brightness([share(i % width, width), share(i / width, height)]))

@@ -13,5 +13,4 @@ mod lines;
 pub(super) mod ranking;
 
 pub(super) use grey_photo::GreyPhoto;
-pub(super) use ink::ink_block;
 pub(super) use lines::find_baselines;

@@ -4,7 +4,7 @@ use super::grid::{SheetGrid, node_shares};
 use super::view::PhotoView;
 use crate::dewarp::bilinear;
 use crate::error::{Error, Result};
-use crate::math::planar::{distance, polyline_length};
+use crate::math::planar::{difference, polyline_length};
 
 /// Number of table cells along each side of a cell of the sheet's grid: bilinear interpolation is exact to a hundredth
 /// of a pixel then.
@@ -55,9 +55,15 @@ impl PlaceTable {
     /// Finds the place on the flat page, in shares of its width and height, that the photo shows at a pixel: from the nearest
     /// node in ever smaller steps to the nearest place. None if the pixel is not on the page.
     pub fn back_project(&self, pixel: [f64; 2]) -> Option<[f64; 2]> {
-        let off = |share: [f64; 2]| distance(self.at(share), pixel);
+        let squared = |place: [f64; 2]| {
+            let [x, y] = difference(place, pixel);
+            x * x + y * y
+        };
+        let off = |share: [f64; 2]| squared(self.at(share));
         let nearest = |one: &[f64; 2], other: &[f64; 2]| off(*one).total_cmp(&off(*other));
-        let mut best = node_shares([self.cols, self.rows]).min_by(nearest)?;
+        let (mut best, _) = node_shares([self.cols, self.rows])
+            .zip(self.places.iter().map(|place| squared(*place)))
+            .min_by(|(_, one), (_, other)| one.total_cmp(other))?;
         let mut step = self.nodes().map(|nodes| 1.0 / (nodes - 1) as f64);
         while step[0] > f64::EPSILON {
             let around = (0..9).map(|k| {

@@ -18,13 +18,14 @@ const MAX_BEZIER_ANGLE: f64 = std::f64::consts::FRAC_PI_4;
 /// numbers of 32 bits that an STL file has.
 const STRAIGHT_TOLERANCE_SHARE: f64 = 8.0 * f32::EPSILON as f64;
 
-/// Makes a curve of a line's straight pieces, with Bézier curves along the pieces that lie on a circle.
-pub(super) fn with_arcs(points: &[[f64; 2]]) -> Curve {
+/// Makes a curve of a line's straight pieces, with Bézier curves along the pieces that lie on a circle and are nowhere farther from it
+/// than `max_bulge`.
+pub(super) fn with_arcs(points: &[[f64; 2]], max_bulge: f64) -> Curve {
     let points = &corners(points);
     let mut curve = Curve::through(&points[..1]);
     let mut start = 0;
     while start + 1 < points.len() {
-        match longest_arc(&points[start..]) {
+        match longest_arc(&points[start..], max_bulge) {
             Some((pieces, centre)) => {
                 add_arc(&mut curve, &points[start..=start + pieces], centre);
                 start += pieces;
@@ -39,7 +40,7 @@ pub(super) fn with_arcs(points: &[[f64; 2]]) -> Curve {
 }
 
 /// The points of a line at which it turns, and its ends.
-fn corners(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+pub(super) fn corners(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let [low, high] = bounds(points.iter());
     let tolerance = STRAIGHT_TOLERANCE_SHARE * distance(low, high);
     let is_on = |p: [f64; 2], ends: [[f64; 2]; 2]| distance_to_segment(p, ends) <= tolerance;
@@ -61,7 +62,7 @@ fn corners(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 }
 
 /// Number of pieces, from the first point on, that lie on one circle, and its centre.
-fn longest_arc(points: &[[f64; 2]]) -> Option<(usize, [f64; 2])> {
+fn longest_arc(points: &[[f64; 2]], max_bulge: f64) -> Option<(usize, [f64; 2])> {
     let (centre, radius) = circle_through(points.get(..3)?.try_into().ok()?)?;
     let arm = |p: [f64; 2]| [p[0] - centre[0], p[1] - centre[1]];
     // Angle of a piece as seen from the centre.
@@ -76,7 +77,10 @@ fn longest_arc(points: &[[f64; 2]]) -> Option<(usize, [f64; 2])> {
         let bulge = f64::max(before, long).powi(2) / (8.0 * radius);
         before = long;
         let away = (distance(pair[1], centre) - radius).abs();
-        angle > 0.0 && angle <= MAX_BEND_STEP && away <= MAX_OFF_PER_BULGE * bulge
+        angle > 0.0
+            && angle <= MAX_BEND_STEP
+            && bulge <= max_bulge
+            && away <= MAX_OFF_PER_BULGE * bulge
     };
     let pieces = points.windows(2).take_while(is_on).count();
     (pieces >= MIN_ARC_PIECES).then_some((pieces, centre))
@@ -131,12 +135,15 @@ mod tests {
 
     #[test]
     fn a_polygon_of_many_sides_is_a_circle_and_one_of_few_is_not() {
-        let (centre, radius) = with_arcs(&polygon(48)).circle().unwrap();
+        let (centre, radius) = with_arcs(&polygon(48), f64::INFINITY).circle().unwrap();
         assert!(
             (radius - 8.0).abs() < 1e-4 && distance(centre, [3.0, 4.0]) < 1e-4,
             "{centre:?} {radius}"
         );
-        assert_eq!(with_arcs(&polygon(12)), Curve::through(&polygon(12)));
+        assert_eq!(
+            with_arcs(&polygon(12), f64::INFINITY),
+            Curve::through(&polygon(12))
+        );
     }
 
     /// A rectangle with points along its sides and points that rounding has doubled, begun within a side.
@@ -156,7 +163,7 @@ mod tests {
             [3.0, 0.0],
         ];
         let sides = [[9.0, 0.0], [9.0, 5.0], [0.0, 5.0], [0.0, 0.0], [9.0, 0.0]];
-        assert_eq!(with_arcs(&line), Curve::through(&sides));
+        assert_eq!(with_arcs(&line, f64::INFINITY), Curve::through(&sides));
     }
 
     /// A plate whose corners are rounded, begun within one of them: three pieces of a corner follow a long side.
@@ -174,7 +181,7 @@ mod tests {
         }
         line.rotate_left(9);
         line.push(line[0]);
-        for p in with_arcs(&line).points(1e-3) {
+        for p in with_arcs(&line, f64::INFINITY).points(1e-3) {
             let [x, y] = p.map(|v| (v - 150.0).abs());
             assert!(x < 153.001 && y < 153.001, "{p:?}");
         }
@@ -185,7 +192,7 @@ mod tests {
         let mut line = vec![[30.0, 4.0]];
         line.extend(&polygon(32)[..17]);
         line.push([-30.0, 4.0]);
-        let curve = with_arcs(&line);
+        let curve = with_arcs(&line, f64::INFINITY);
         let half = std::f64::consts::PI * 8.0;
         assert_eq!(curve.controls().len(), 3 * (1 + 4 + 1) + 1);
         assert!(

@@ -20,7 +20,7 @@ impl<'a> Lines<'a> {
     pub(super) fn new(sheet: &'a Sheet, options: &DrawingOptions) -> Self {
         let curve = |points: &[[f64; 2]]| {
             let curve = match sheet.exact {
-                true => with_arcs(points),
+                true => with_arcs(points, f64::INFINITY),
                 false => curve_through(points, CURVE_TOLERANCE_LENGTHS * sheet.spacing),
             };
             curve.mapped(|p| p.map(|v| options.scale * v))

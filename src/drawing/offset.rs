@@ -8,7 +8,7 @@ use i_overlay::mesh::float::outline::offset::OutlineOffset;
 use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
 use i_overlay::string::clip::ClipRule;
 
-use super::circle::with_arcs;
+use super::circle::{corners, with_arcs};
 use super::curve::{CIRCLE_TOLERANCE_MM, Curve};
 use super::line::FLATTENING_TOLERANCE_MM;
 use super::smooth::curve_through;
@@ -18,27 +18,30 @@ const MIN_MITRE_ANGLE: f64 = FRAC_PI_3;
 
 /// Offsets the closed lines around a sheet outwards by a distance in millimetres. What the enlarged sheet covers of them, as slits and
 /// holes that are narrower than twice the distance, is returned as well, there and back: it is cut where it is.
-/// Around an `exact` sheet straight lines and arcs stay what they are.
+/// Around an `exact` sheet straight lines and arcs stay what they are, and the sides of a polygon straight.
 pub(super) fn offset_outwards(curves: &[Curve], distance: f64, exact: bool) -> Vec<Curve> {
     let smooth = |line: &[[f64; 2]]| match exact {
-        true => with_arcs(line),
+        true => with_arcs(line, FLATTENING_TOLERANCE_MM),
         false => curve_through(line, FLATTENING_TOLERANCE_MM),
     };
     let lines: Vec<_> = (curves.iter())
         .map(|curve| curve.points(CIRCLE_TOLERANCE_MM))
         .collect();
     let rings: Vec<&[[f64; 2]]> = lines.iter().map(|line| &line[1..]).collect();
-    let outer = rings.outline(&style(distance)).concat();
-    let covering = outer.outline(&style(-distance - CIRCLE_TOLERANCE_MM));
+    let outer: Vec<_> = (rings.outline(&style(distance)).into_iter().flatten())
+        .map(|mut ring| {
+            ring.extend(ring.first().copied());
+            corners(&ring)
+        })
+        .collect();
+    let outer_rings: Vec<&[[f64; 2]]> = outer.iter().map(|line| &line[1..]).collect();
+    // A hundredth deeper, so that what lies where it did is not covered.
+    let covering = outer_rings.outline(&style(-1.01 * distance));
     let strictly_inside = ClipRule {
         invert: false,
         boundary_included: false,
     };
     let covered = lines.clip_by(&covering, FillRule::NonZero, strictly_inside);
-    let around = outer.into_iter().map(|mut ring| {
-        ring.extend(ring.first().copied());
-        smooth(&ring)
-    });
     let there_and_back = covered.into_iter().map(|mut line| {
         if line.first() != line.last() {
             let back: Vec<_> = line.iter().rev().skip(1).copied().collect();
@@ -46,19 +49,19 @@ pub(super) fn offset_outwards(curves: &[Curve], distance: f64, exact: bool) -> V
         }
         smooth(&line)
     });
-    around.chain(there_and_back).collect()
+    (outer.iter().map(|line| smooth(line)))
+        .chain(there_and_back)
+        .collect()
 }
 
 fn style(distance: f64) -> OutlineStyle<f64> {
-    let mitred = OutlineStyle::new(distance).line_join(LineJoin::Miter(MIN_MITRE_ANGLE));
-    // Points of curves stay single.
-    mitred.miter_min_turn(0.0)
+    OutlineStyle::new(distance).line_join(LineJoin::Miter(MIN_MITRE_ANGLE))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::planar::polyline_length;
+    use crate::math::planar::{polygon_contains, polyline_length};
 
     fn bounds(curve: &Curve) -> [[f64; 2]; 2] {
         crate::math::planar::bounds(curve.points(0.01).iter())
@@ -100,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn a_round_hole_stays_a_circle_and_a_plate_has_four_lines() {
+    fn a_round_hole_stays_a_circle_and_sides_stay_straight() {
         let plate = [
             [0.0, 0.0],
             [60.0, 0.0],
@@ -112,10 +115,14 @@ mod tests {
             .map(|k| (-std::f64::consts::TAU * f64::from(k % 48) / 48.0).sin_cos())
             .map(|(sin, cos)| [30.0 + 8.0 * cos, 20.0 + 8.0 * sin])
             .collect();
-        let all = [with_arcs(&plate), with_arcs(&hole)];
+        let all = [&plate[..], &hole].map(|line| with_arcs(line, f64::INFINITY));
         let found = offset_outwards(&all, 0.1, true);
         assert_eq!(found[0].pieces().count(), 4);
         let (centre, radius) = found[1].circle().unwrap();
+        let disc: Vec<[f64; 2]> = hole.into_iter().rev().step_by(2).collect();
+        let sides = offset_outwards(&[Curve::through(&disc)], 0.1, true);
+        assert_eq!(sides[0], Curve::through(&sides[0].points(1.0)));
+        assert_eq!(sides[0].pieces().count(), 24);
         assert!((radius - 7.9).abs() < 1e-3, "{radius}");
         assert!(
             (centre[0] - 30.0).hypot(centre[1] - 20.0) < 1e-3,
@@ -190,5 +197,36 @@ mod tests {
         // The bay has become a hole, and its mouth is cut where it was.
         let bay = 8.0 + 2.0 * 4.5f64.hypot(10.0);
         assert!(found[1] > 0.6 * bay && found[1] < bay, "{found:?}");
+    }
+
+    #[test]
+    fn rings_of_any_kind_lie_within_what_is_drawn_around_them() {
+        let mut random = oorandom::Rand64::new(7);
+        for count in (4..200).step_by(4) {
+            let out = 0.05 * 200f64.powf(random.rand_float());
+            let mut ring: Vec<[f64; 2]> = (0..count)
+                .map(|k| {
+                    let (sin, cos) = (std::f64::consts::TAU * k as f64 / count as f64).sin_cos();
+                    let radius = 20.0 + 80.0 * random.rand_float();
+                    [radius * cos, radius * sin]
+                })
+                .collect();
+            // A slit to the middle, a doubled point, and one that rounding has moved.
+            ring.extend([
+                [0.0, 0.0],
+                ring[count - 1],
+                ring[count - 1],
+                ring[0],
+                [ring[0][0], ring[0][1] + 1e-9],
+            ]);
+            ring.push(ring[0]);
+            let found = offset_outwards(&[Curve::through(&ring)], out, true);
+            let around = found[0].points(0.01);
+            for p in &ring {
+                assert!(polygon_contains(&around, *p), "{count} {out} {p:?}");
+            }
+            let reach = around.iter().map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
+            assert!(reach < 100.0 + 2.01 * out, "{count} {out} {reach}");
+        }
     }
 }

@@ -151,7 +151,7 @@ sharedTest('what cannot be laid flat whole is laid flat in pieces, which are sav
   const pdf = await downloaded(page, () => page.locator('#save-now').click());
   assert.equal(pdf.bytes.toString('latin1', 0, 5), '%PDF-');
   // The dialog stays, and so does the size: the next format is of the same.
-  assert.match(await page.locator('#save-size').innerText(), /^Saved .*pdf/);
+  await page.locator('#save-size', { hasText: /^Saved .*pdf/ }).waitFor();
   const again = await saveAs(page, 'SVG');
   const twice = Number(/width="([\d.]+)mm"/.exec(again.bytes.toString())?.[1]);
   await page.locator('#end-sheets').click();

@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::curve::{Curve, MIN_CORNER_TURN};
+use super::curve::{CIRCLE_TOLERANCE_MM, Curve, MIN_CORNER_TURN};
 use super::line::{FLATTENING_TOLERANCE_MM, place_at};
 use crate::math::planar::{
-    Point2, distance, is_within, nearest_on_segment, orientation, polyline_length,
+    Point2, bounds, distance, is_within, nearest_on_segment, orientation, polyline_length,
     segments_intersect,
 };
 use crate::pattern::{Run, Seam};
@@ -226,18 +226,23 @@ pub(super) fn walls_of(line: &[[f64; 2]]) -> Vec<Wall> {
     line.windows(2).map(|p| [p[0], p[1]]).collect()
 }
 
-/// The walls that a tab along some lines may touch.
+/// The walls that tabs along some lines may touch, divided where these lines end on them.
 fn walls_near(runs: &[Polyline], depth: f64, walls: &[Wall]) -> Vec<Wall> {
-    let ends = |k: usize| {
-        let all = runs.iter().flatten().map(|p| p[k]);
-        let low = all.clone().fold(f64::INFINITY, f64::min);
-        [low - depth, all.fold(f64::NEG_INFINITY, f64::max) + depth]
+    let [low, high] = bounds(runs.iter().flatten());
+    let is_near = |[a, b]: &&Wall| {
+        (0..2).all(|k| a[k].max(b[k]) >= low[k] - depth && a[k].min(b[k]) <= high[k] + depth)
     };
-    let boxed = [0, 1].map(ends);
-    let is_near = |[a, b]: &&[[f64; 2]; 2]| {
-        (0..2).all(|k| a[k].max(b[k]) >= boxed[k][0] && a[k].min(b[k]) <= boxed[k][1])
+    let ends = || runs.iter().flat_map(|run| [run[0], run[run.len() - 1]]);
+    let divided = |wall: &Wall| {
+        let inner = ends().find(|end| {
+            same(*end, nearest_on_segment(*end, *wall)) && wall.iter().all(|tip| !same(*tip, *end))
+        });
+        match inner {
+            Some(end) => vec![[wall[0], end], [end, wall[1]]],
+            None => vec![*wall],
+        }
     };
-    walls.iter().filter(is_near).copied().collect()
+    walls.iter().filter(is_near).flat_map(divided).collect()
 }
 
 /// Divides a curve into fold lines of tabs: along each line the curve turns by at most [`MIN_CORNER_TURN`], as does the side that it is
@@ -401,9 +406,9 @@ fn notches(base: &[[f64; 2]], walls: &[Wall]) -> [f64; 2] {
     })
 }
 
-/// Whether two points are one but for rounding.
+/// Whether two points are one as far as a drawing tells: numbers of 32 bits round by more than those of 64.
 fn same(p: [f64; 2], q: [f64; 2]) -> bool {
-    distance(p, q) < 1e-6
+    distance(p, q) < CIRCLE_TOLERANCE_MM
 }
 
 /// Returns whether two line segments cross, or touch elsewhere than at common ends.
@@ -538,6 +543,15 @@ mod tests {
             // Along the border there is room.
             assert!(flap(&square[..2], [None; 2], 6.0, &around).is_some());
         }
+    }
+
+    #[test]
+    fn a_tab_may_end_on_a_line_that_goes_on() {
+        let base = [[0.0, 0.0], [40.0, 0.0]];
+        let across = [[39.99999, -20.0], [39.99999, 20.0]];
+        let near = walls_near(&[base.to_vec()], 6.0, &[base, across]);
+        let (depth, corners) = flap(&base, [None; 2], 6.0, &beside_walls(&near)).unwrap();
+        assert_eq!((depth, corners), (6.0, [[6.0, -6.0], [34.0, -6.0]]));
     }
 
     #[test]

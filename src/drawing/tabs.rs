@@ -370,7 +370,7 @@ fn flap(
     is_free(base, [from, corners[0], corners[1], to], around).then_some((depth, corners))
 }
 
-/// Whether nothing crosses a tab, is within it, or lies below it: along a slit, where both sides are one line, no line crosses a tab on the sheet.
+/// Whether nothing crosses a tab, is within it, or lies below it, as beside a slit whose two sides are one line.
 fn is_free(base: &[[f64; 2]], line: [[f64; 2]; 4], around: &Surroundings<'_>) -> bool {
     let sides = [[0, 1], [1, 2], [2, 3], [3, 0]].map(|side| side.map(|k| line[k]));
     let is_beyond = |p: [f64; 2], side: Wall| {

@@ -140,10 +140,8 @@ mod tests {
             (radius - 8.0).abs() < 1e-4 && distance(centre, [3.0, 4.0]) < 1e-4,
             "{centre:?} {radius}"
         );
-        assert_eq!(
-            with_arcs(&polygon(12), f64::INFINITY),
-            Curve::through(&polygon(12))
-        );
+        let few = polygon(12);
+        assert_eq!(with_arcs(&few, f64::INFINITY), Curve::through(&few));
     }
 
     /// A rectangle with points along its sides and points that rounding has doubled, begun within a side.

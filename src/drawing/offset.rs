@@ -13,7 +13,7 @@ use super::curve::{CIRCLE_TOLERANCE_MM, Curve};
 use super::line::FLATTENING_TOLERANCE_MM;
 use super::smooth::curve_through;
 
-/// Minimum angle, in radians, of a corner that stays a corner; one that is more pointed is cut off at the offset distance.
+/// Minimum angle, in radians, of a corner that stays one, moved by up to twice the distance; others are cut off. No table chose it.
 const MIN_MITRE_ANGLE: f64 = FRAC_PI_3;
 
 /// Offsets the closed lines around a sheet outwards by a distance in millimetres. What the enlarged sheet covers of them, as slits and
@@ -49,9 +49,8 @@ pub(super) fn offset_outwards(curves: &[Curve], distance: f64, exact: bool) -> V
         }
         smooth(&line)
     });
-    (outer.iter().map(|line| smooth(line)))
-        .chain(there_and_back)
-        .collect()
+    let around = outer.iter().map(|line| smooth(line));
+    around.chain(there_and_back).collect()
 }
 
 fn style(distance: f64) -> OutlineStyle<f64> {

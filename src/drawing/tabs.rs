@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use super::curve::{CIRCLE_TOLERANCE_MM, Curve, MIN_CORNER_TURN};
 use super::line::{FLATTENING_TOLERANCE_MM, place_at};
 use crate::math::planar::{
-    Point2, bounds, distance, is_within, nearest_on_segment, orientation, polyline_length,
+    Point2, bounds, distance, distance_to_segment, is_within, orientation, polyline_length,
     segments_intersect,
 };
 use crate::pattern::{Run, Seam};
@@ -66,11 +66,11 @@ type Polyline = Vec<[f64; 2]>;
 /// A line segment that tabs and texts must not touch.
 pub(super) type Wall = [[f64; 2]; 2];
 
-/// What a tab must keep off.
+/// Lines that a tab must keep off.
 struct Surroundings<'a> {
-    /// The outlines of its sheet.
+    /// All outlines of the sheet that the tab is on.
     sheet: &'a [Wall],
-    /// What of them, and of the tabs so far, it may reach.
+    /// Lines of the outlines, and of the tabs so far, that the tab may reach.
     near: Vec<Wall>,
 }
 
@@ -234,9 +234,8 @@ fn walls_near(runs: &[Polyline], depth: f64, walls: &[Wall]) -> Vec<Wall> {
     };
     let ends = || runs.iter().flat_map(|run| [run[0], run[run.len() - 1]]);
     let divided = |wall: &Wall| {
-        let inner = ends().find(|end| {
-            same(*end, nearest_on_segment(*end, *wall)) && wall.iter().all(|tip| !same(*tip, *end))
-        });
+        let inner =
+            ends().find(|end| is_on(*end, *wall) && wall.iter().all(|tip| !same(*tip, *end)));
         match inner {
             Some(end) => vec![[wall[0], end], [end, wall[1]]],
             None => vec![*wall],
@@ -373,9 +372,8 @@ fn flap(
 /// Whether nothing crosses a tab, is within it, or lies below it, as beside a slit whose two sides are one line.
 fn is_free(base: &[[f64; 2]], line: [[f64; 2]; 4], around: &Surroundings<'_>) -> bool {
     let sides = [[0, 1], [1, 2], [2, 3], [3, 0]].map(|side| side.map(|k| line[k]));
-    let is_beyond = |p: [f64; 2], side: Wall| {
-        orientation(side[0], side[1], p) <= 0.0 || same(p, nearest_on_segment(p, side))
-    };
+    let is_beyond =
+        |p: [f64; 2], side: Wall| orientation(side[0], side[1], p) <= 0.0 || is_on(p, side);
     let is_outside = |p: &[f64; 2]| {
         sides.iter().any(|side| is_beyond(*p, *side)) || base.iter().any(|own| same(*own, *p))
     };
@@ -404,6 +402,11 @@ fn notches(base: &[[f64; 2]], walls: &[Wall]) -> [f64; 2] {
             .map(|p| (side * (angle(p) - angle(other))).rem_euclid(TAU))
             .fold(TAU, f64::min)
     })
+}
+
+/// Whether a point is on a line segment as far as a drawing tells.
+fn is_on(p: [f64; 2], wall: Wall) -> bool {
+    distance_to_segment(p, wall) < CIRCLE_TOLERANCE_MM
 }
 
 /// Whether two points are one as far as a drawing tells: numbers of 32 bits round by more than those of 64.

@@ -110,7 +110,7 @@ doorTest('a fold that is clicked in the drawing is cut', async (page) => {
   // What was cut before is not saved in its place, and what is wrong stands at the field alone.
   await page.locator('#save-now:disabled').waitFor();
   assert.equal(await page.locator('#save-dialog footer').innerText(), 'Save');
-  assert.equal(await page.locator('#save-title').innerText(), 'Cut-out sheets');
+  await page.locator('#save-title', { hasText: /^Cut-out sheets$/ }).waitFor();
 });
 
 doorTest('a solid of sheet metal is cut as the blank that it is bent from', async (page) => {
@@ -211,10 +211,14 @@ doorTest('the picture of the sheets stays in view beside the fields, above the f
   await page.locator('#end-sheets').click();
   const image = page.locator('.preview[aria-busy="false"] img');
   await image.waitFor();
+  await page.locator('#save-now:enabled').waitFor();
   await page.locator('.sheets-options').evaluate((box) => (box.scrollTop = box.scrollHeight));
   const [picture, kerf, format, save] = await Promise.all([image, page.getByLabel('Kerf'), page.getByRole('radio', { name: /^DXF / }), page.locator('#save-now')].map((one) => one.boundingBox()));
   assert.ok(picture && kerf && format && save);
   assert.ok(picture.y > 0 && kerf.y > 0 && picture.y + picture.height <= format.y && kerf.y < format.y && format.y < save.y && save.y < format.y + 110 && save.y < 800, JSON.stringify({ picture, kerf, format, save }));
+  await page.locator('#writing').evaluate((/** @type {HTMLElement} */ bar) => (bar.hidden = false));
+  assert.deepEqual([await image.boundingBox(), await page.getByRole('radio', { name: /^DXF / }).boundingBox()], [picture, format], 'the bar of writing moves nothing');
+  await page.locator('#writing').evaluate((/** @type {HTMLElement} */ bar) => (bar.hidden = true));
   await workBy(page, '.preview[aria-busy="true"]', () => page.getByRole('button', { name: 'Enlarge the picture' }).click());
   assert.ok(Math.abs(((await image.boundingBox())?.width ?? 0) / picture.width - 3) < 0.2);
 }, { size: { width: 1280, height: 800 } });

@@ -143,7 +143,12 @@ sharedTest('what cannot be laid flat whole is laid flat in pieces, which are sav
   await side.fill(String(doubled));
   await figure('Drawing').filter({ hasNotText: String(Math.round(wide)) }).waitFor({ state: 'attached' });
   assert.ok(await pages() > 2 * before, `${await pages()} pages instead of ${before}`);
-  await page.getByLabel('Paper', { exact: true }).selectOption('a4');
+  // From the change on, what was drawn before cannot be saved.
+  assert.ok(await page.getByLabel('Paper', { exact: true }).evaluate((/** @type {HTMLSelectElement} */ paper) => {
+    paper.value = 'a4';
+    paper.dispatchEvent(new Event('input', { bubbles: true }));
+    return /** @type {HTMLButtonElement} */ (document.querySelector('#save-now')).disabled;
+  }));
   await page.locator('#save-formats').getByRole('radio', { name: /^PDF / }).check();
   await page.locator('#save-size', { hasText: /pdf, / }).waitFor();
   const saveBox = await page.locator('#save-now').boundingBox();

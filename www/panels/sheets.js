@@ -89,8 +89,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
   /** Thickness of a solid of sheet metal. @type {number | undefined} */
   let thickness;
   const byNumber = make('details', 'more', make('summary', 'small', SHEET_WORDS.byNumber), ...fields.nodes('sheet-cut', 'sheet-join'));
-  const edges = make('div', 'edges', make('p', 'small', SHEET_WORDS.edges), byNumber);
-  edges.hidden = true;
+  const edges = Object.assign(make('div', 'edges', make('p', 'small', SHEET_WORDS.edges), byNumber), { hidden: true });
   /** Number of pieces of the last drawing. */
   let pieces = Infinity;
   /** @returns {CutOptions} */
@@ -123,10 +122,8 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     for (const [name, value] of Object.entries(values)) fields.set(/** @type {FieldName} */ (name), value);
     void draw();
   });
-  const status = make('p', 'said');
-  status.setAttribute('role', 'status');
-  const waitingElement = make('div', 'waiting');
-  waitingElement.id = 'cutting';
+  const status = Object.assign(make('p', 'said'), { role: 'status' });
+  const waitingElement = Object.assign(make('div', 'waiting'), { id: 'cutting' });
   const waiting = waitingPanel(waitingElement, () => {
     setMissing('it was cancelled');
     stop();
@@ -143,8 +140,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     fields.control('sheet-side').dispatchEvent(new Event('input', { bubbles: true }));
   }, ''), { hidden: true });
   const about = make('div', '');
-  const pageWarning = make('p', 'guess small');
-  pageWarning.hidden = true;
+  const pageWarning = Object.assign(make('p', 'guess small'), { hidden: true });
   /** @type {Promise<Drawing>} */
   let drawing;
   /** Rejects the drawing: writers of files then report the reason. @param {string} reason */
@@ -153,6 +149,12 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     drawing.catch(() => {});
   };
   setMissing('');
+  /** What was drawn is of other values than those of the fields, and is not saved any more. */
+  const withdraw = () => {
+    drawing = new Promise(() => {});
+    preview.setAttribute('aria-busy', 'true');
+    offer.renew();
+  };
 
   /** Takes away what is said of the last drawing. */
   const clear = () => {
@@ -181,6 +183,8 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
   };
 
   const draw = async () => {
+    // The dialog may be closed by then.
+    if (!options.isConnected) return;
     showFields();
     if (fields.check()) {
       stop();
@@ -209,7 +213,6 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
       const image = await drawingImage(api, await requested, preview, zoom);
       if (requested !== drawing) return;
       const finished = await requested;
-      waiting.end();
       showSize(finished);
       // Only flat faces can be cut apart anywhere: nothing of them is stretched.
       const isExact = canFoldElsewhere(finished);
@@ -235,12 +238,9 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
         fields.blame(name, SHEET_WORDS.noEdgeBetween(pair, pieces));
       }
       failed = true;
-    } finally {
-      if (requested === drawing) {
-        preview.setAttribute('aria-busy', 'false');
-        waiting.end();
-      }
     }
+    preview.setAttribute('aria-busy', 'false');
+    waiting.end();
     if (!failed) return;
     // The reason stands beside the preview.
     setMissing('');
@@ -260,10 +260,8 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     void draw();
   };
   detail.addEventListener('change', async () => {
-    setMissing('');
-    preview.setAttribute('aria-busy', 'true');
+    withdraw();
     waiting.begin('solving');
-    offer.renew();
     const end = solved();
     pageDetail.value = detail.value;
     for (const event of ['input', 'change']) pageDetail.dispatchEvent(new Event(event));
@@ -271,9 +269,8 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     // The dialog may be closed by then.
     if (options.isConnected) offerAgain();
   });
-  let inputTimer = 0;
+  let [inputTimer, zoom] = [0, 1];
   const legend = make('p', 'muted small');
-  let zoom = 1;
   const enlarge = makeButton('', () => {
     zoom = zoom === 1 ? 3 : 1;
     preview.style.setProperty('--zoom', String(zoom));
@@ -303,6 +300,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
       fields.set('sheet-side', Number.isNaN(side) ? suggested : side);
     }
     if (target === fields.control('sheet-side')) fields.set('sheet-unit', 'none');
+    withdraw();
     inputTimer = window.setTimeout(() => void draw(), SETTLING_MS);
   });
 

@@ -339,7 +339,7 @@ export class Session extends Events {
   #workerFor(input) {
     if (!isLarge(input) || !crossOriginIsolated) return this.#connectedWorker();
     this.#worker?.dispose();
-    return (this.#worker = new this.api.SolverWorker({ threads: navigator.hardwareConcurrency - 1 }));
+    return (this.#worker = new this.api.SolverWorker({ threads: Math.max(1, navigator.hardwareConcurrency - 1) }));
   }
 
   #connectedWorker() {

@@ -89,6 +89,8 @@ pageTest('what grows with the size of a result is done in workers, and a picture
 
 doorTest('the solver of a large input gives its memory back when it rests, comes again, and ends even where its worker does not listen', async (page) => {
   await page.evaluate((bytes) => {
+    // Of one core nothing is left for the page.
+    Object.defineProperty(navigator, 'hardwareConcurrency', { value: 1 });
     const { postMessage, terminate } = Worker.prototype;
     /** Those that were handed a large image. @type {WeakSet<Worker>} */
     const large = new WeakSet();

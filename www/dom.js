@@ -27,6 +27,9 @@ export function elements(selector, type) {
   return [...document.querySelectorAll(selector)].filter(typed);
 }
 
+/** Closes the dialogs: they are about what was open before. */
+export const closeDialogs = () => elements('dialog[open]', HTMLDialogElement).forEach((dialog) => dialog.close());
+
 /**
  * Makes a button open a file dialog.
  * @param {HTMLButtonElement} button

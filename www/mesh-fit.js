@@ -27,8 +27,8 @@ export class MeshFit extends Events {
   lambda = 'auto';
   /** The result; null during a solve. @type {MeshSurface | null} */
   surface = null;
-  /** The result of the same mesh before the present solve. @type {MeshSurface | null} */
-  #previousSurface = null;
+  /** The result of the same mesh before the present solve, and its λ. @type {{ surface: MeshSurface, lambda: number | 'auto' } | null} */
+  #previous = null;
   /** Identity of the newest solve; results of older solves are discarded. @type {object | null} */
   #newestSolve = null;
   #tasks;
@@ -43,7 +43,8 @@ export class MeshFit extends Events {
   async solve(mesh, lambda) {
     this.stop();
     const solve = (this.#newestSolve = {});
-    this.#previousSurface = this.mesh === mesh ? this.surface ?? this.#previousSurface : null;
+    if (this.mesh !== mesh) this.#previous = null;
+    else if (this.surface) this.#previous = { surface: this.surface, lambda: this.lambda };
     this.mesh = mesh;
     this.lambda = lambda;
     this.surface = null;
@@ -66,9 +67,9 @@ export class MeshFit extends Events {
   /** Cancels the solve, and restores the result before it. */
   cancel() {
     this.stop();
-    if (!this.surface && this.#previousSurface) {
-      this.surface = this.#previousSurface;
-      this.emit('result', this.surface);
+    if (!this.surface && this.#previous) {
+      Object.assign(this, this.#previous);
+      this.emit('result', this.#previous.surface);
     }
     this.emit('cancelled', this.surface !== null);
   }

@@ -220,10 +220,18 @@ sharedDoorTest('a whole solve tells how far it is and can be done without; what 
   await page.locator('#verdict-detail', { hasText: 'You see the surface from before' }).waitFor();
   assert.ok(await page.locator('#end-file').isEnabled());
   await done(page);
+  // One that is begun beside its sheets brings these back, and another file closes them.
+  const dialog = page.locator('#save-dialog:has([aria-busy="false"] img) #save-now:enabled');
+  await page.locator('#end-sheets').click();
+  await dialog.waitFor();
+  await actAtOnce(page, ['#sheet-detail', '3'], ['#cutting-cancel']);
+  await dialog.waitFor();
+  assert.equal(await page.locator('#running').isVisible(), false);
 
   // Three triangles at one edge, of which no vertex is inside: without noise they stay, and there is nothing to be smoothed.
   const fan = { points: [[0, 0, 0], [1, 0, 0], [0, 1, 0.2], [0, -1, 0.1], [0, 0.2, 1]], triangles: [[0, 1, 2], [1, 0, 3], [0, 1, 4]] };
   await open(page, 'fan.obj', obj(/** @type {any} */ (fan)));
+  assert.equal(await dialog.isVisible(), false);
   await page.locator('#verdict-detail', { hasText: 'no noise' }).waitFor();
   await typeLambda(page, '1e7');
   await page.locator('#verdict', { hasText: 'cannot be solved as a whole' }).waitFor();

@@ -1,5 +1,5 @@
 /** Whole meshes on the stage: the mesh and its fit in space, the views of it, and what it is saved as. */
-import { download, element } from '../dom.js';
+import { closeDialogs, download, element } from '../dom.js';
 import { choiceOf } from '../fields.js';
 import { capitalised, percent, shortLambda } from '../format.js';
 import { lengthUnitOf, modelOf } from '../pattern.js';
@@ -86,7 +86,8 @@ export function meshFitPanel(session, meshFit, stage, heights) {
     },
     cutSheets: () => {
       const { surface } = meshFit;
-      if (!surface) return;
+      // The stage says why not.
+      if (!surface) return closeDialogs();
       const longest = Math.max(...sidesOf(surface.positions));
       offerSheets(session.api, {
         stem: stem(),
@@ -97,7 +98,9 @@ export function meshFitPanel(session, meshFit, stage, heights) {
         cut: ({ side: length, ...options }, tell) => meshFit.pattern(surface, { scale: length / longest, ...options }, tell),
         metalThickness: async () => (await meshFit.recognized(meshFit.mesh ?? surface)).thickness,
         canFoldElsewhere: ({ summary }) => summary.strain === 0,
-        stop: () => meshFit.stop(),
+        stop: () => whole.stop(),
+        lambda: surface.report.lambda,
+        cancelSolve: () => meshFit.cancel(),
         isFitted: fitted() !== null,
         solved: () => meshFit.next('result', 'failure', 'cancelled'),
         again: () => whole.cutSheets(),

@@ -35,6 +35,8 @@ export function offerResultSheets(session, result, analyses, again) {
     metalThickness: async () => undefined,
     canFoldElsewhere: () => false,
     stop: () => analyses.stop(),
+    lambda: result.surface.report.lambda,
+    cancelSolve: () => session.cancel(),
     isFitted: true,
     solved: () => session.next('result', 'unsolved'),
     again,

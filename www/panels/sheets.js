@@ -67,13 +67,15 @@ const MAX_EXPECTED_PAGES = 12;
  * @property {() => Promise<number | undefined>} metalThickness thickness of a solid of sheet metal, in the input's unit
  * @property {(drawing: Drawing) => boolean} canFoldElsewhere whether other edges of a drawing may be cut and joined: of flat faces, of which nothing is stretched
  * @property {() => void} stop cancels the pattern that is being computed
+ * @property {number} lambda of the surface
+ * @property {() => void} cancelSolve cancels the solve of another λ
  * @property {boolean} isFitted whether less detail makes simpler pieces
  * @property {() => Promise<unknown>} solved resolves when the next solve has ended
  * @property {() => void} again offers the sheets of what was solved then
  */
 
 /** Opens the dialog. @param {Api} api @param {SheetSource} source */
-export function offerSheets(api, { stem, model, note = '', length, unit, up, cut, metalThickness, canFoldElsewhere, stop, isFitted, solved, again: offerAgain }) {
+export function offerSheets(api, { stem, model, note = '', length, unit, up, cut, metalThickness, canFoldElsewhere, stop, lambda, cancelSolve, isFitted, solved, again: offerAgain }) {
   const suggested = suggestedSide(length, unit);
   const fields = fieldsOf(FIELDS);
   // A size that is not the true one goes by no unit.
@@ -81,7 +83,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
   for (const [name, value] of Object.entries(choice)) fields.set(/** @type {FieldName} */ (name), value);
   fields.show(unit !== 'none', 'sheet-unit');
   const [detail, pageDetail] = [fields.control('sheet-detail'), element('lambda', HTMLInputElement)];
-  Object.assign(detail, { type: 'range', min: pageDetail.min, max: pageDetail.max, step: pageDetail.step, value: pageDetail.value });
+  Object.assign(detail, { type: 'range', min: pageDetail.min, max: pageDetail.max, step: pageDetail.step, value: String(Math.log10(lambda)) });
   const side = () => fields.number('sheet-side');
   const paper = () => /** @type {'a4' | 'letter' | ''} */ (fields.text('sheet-paper'));
   const isMetal = () => fields.text('sheet-material') !== '';
@@ -124,7 +126,10 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
   });
   const status = Object.assign(make('p', 'said'), { role: 'status' });
   const waitingElement = Object.assign(make('div', 'waiting'), { id: 'cutting' });
+  /** Whether the surface is being solved with another detail: then what there is is offered again. */
+  let isSolving = false;
   const waiting = waitingPanel(waitingElement, () => {
+    if (isSolving) return cancelSolve();
     setMissing('it was cancelled');
     stop();
     waiting.end();
@@ -185,6 +190,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
   const draw = async () => {
     // The dialog may be closed by then.
     if (!options.isConnected) return;
+    if (isSolving) return keepOptions();
     showFields();
     if (fields.check()) {
       stop();
@@ -261,6 +267,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
   };
   detail.addEventListener('change', async () => {
     withdraw();
+    isSolving = true;
     waiting.begin('solving');
     const end = solved();
     pageDetail.value = detail.value;

@@ -47,28 +47,22 @@ async function start() {
   reportPanel(session, analyses);
   headlinePanel(session, analyses, stage, heights);
   const source = sourcePanel(session, adopt, stage.choose, (files) => void addressSync.rememberFiles(files), meshFitView.begin, (file) => void files.openColour(file));
-  const page = pagePanel(session.api, (photos, shown) => void addressSync.rememberPhotos(photos, shown), (states, shown) => addressSync.rememberOutlines(states, shown));
-  const mode = modePanel(session, (entered) => {
-    if (entered === 'photo') page.begin();
-    addressSync.onModeChange();
-  });
+  const page = pagePanel(session, (photos, shown) => void addressSync.rememberPhotos(photos, shown), (states, shown) => addressSync.rememberOutlines(states, shown));
+  const mode = modePanel(session);
   const files = filesPanel(session, mode, source, page);
-  const gallery = galleryPanel(session, { adopt, choose: stage.choose, strip: strip.show, enter: () => mode.enter('heights'), expectsInput: () => addressSync.expectsInput });
+  const gallery = galleryPanel(session, { adopt, choose: stage.choose, strip: strip.show, enter: () => mode.show('heights'), expectsInput: () => addressSync.expectsInput });
   element('notice-close', HTMLButtonElement).addEventListener('click', hideNotice);
   watchDrops((dropped) => void files.open(dropped));
   homePanel((chosen, door) => void files.open(chosen, door === 'page' || undefined), {
-    page: () => {
-      mode.enter('photo');
-      page.showExample();
-    },
+    page: () => void files.openIn('photo', page.showExample),
     scan: () => {
-      mode.enter('heights');
+      mode.show('heights');
       void source.openExample('roof', { size: 400, noise: 0.02 });
     },
   });
   const addressSync = addressSyncPanel(session, {
     adopt, stage, openExample: source.openExample, openFiles: source.openFiles, reinterpretFile: source.reinterpretFile, gallery, mode,
-    openHeights: (stored) => void files.open(stored), openPhotos: page.openStored, beginPhoto: page.begin, showExamplePhoto: page.showExample, meshFit, meshFitView,
+    openHeights: (stored) => void files.open(stored), openPhotos: page.openStored, hasPhoto: page.hasPhoto, beginPhoto: page.begin, showExamplePhoto: page.showExample, meshFit, meshFitView,
   });
   await started;
   await addressSync.begin();

@@ -198,7 +198,8 @@ export class Session extends Events {
     const { signal } = opening;
     this.emit('opening', task);
     try {
-      const answer = await work(signal);
+      // What cannot be stopped is not waited for.
+      const answer = await Promise.race([work(signal), new Promise((_, reject) => signal.addEventListener('abort', reject))]);
       return signal.aborted ? null : answer;
     } catch (error) {
       if (!signal.aborted) this.fail(doing, error);

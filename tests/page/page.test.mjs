@@ -286,7 +286,7 @@ doorTest('the pages of a PDF are photos of pages, read by what is loaded only th
   assert.ok(flat.width > 700, `${flat.width} pixels`);
   await page.keyboard.press('Escape');
   await dropAll(page, { 'torn.pdf': pdf.subarray(0, 300) });
-  await page.getByRole('alert').filter({ hasText: /“torn\.pdf” could not be read: it is damaged, or no PDF .* again/ }).waitFor();
+  await page.getByRole('alert').filter({ hasText: /The file could not be read: “torn\.pdf” is damaged, or no PDF .* again/ }).waitFor();
   assert.equal(await numbers.count(), 2);
 });
 
@@ -694,15 +694,19 @@ sharedDoorTest('a photo that is being read can be done without', async (page) =>
     const files = new DataTransfer();
     files.items.add(new File([blob], 'large.png', { type: 'image/png' }));
     const input = /** @type {HTMLInputElement} */ (document.querySelector('#file'));
-    const panel = /** @type {HTMLElement} */ (document.querySelector('#page-opening'));
+    const panel = /** @type {HTMLElement} */ (document.querySelector('#opening'));
     const offered = new Promise((resolve) => new MutationObserver(() => !panel.hidden && resolve(null)).observe(panel, { attributes: true }));
     input.files = files.files;
     input.dispatchEvent(new Event('change', { bubbles: true }));
     await offered;
-    if (cancel) /** @type {HTMLButtonElement} */ (document.querySelector('#page-opening-cancel')).click();
+    if (cancel) /** @type {HTMLButtonElement} */ (document.querySelector('#opening-cancel')).click();
     return panel.hidden;
   }, cancel);
+  // What is opened meanwhile is a further page.
+  assert.equal(await open(false), false);
   await openPhoto(page, 'letter.png', photo);
+  assert.ok(await page.locator('#page-side').isVisible());
+  assert.equal(await page.locator('#book .page-button').count(), 2);
   const caption = page.locator('#page-caption');
   const before = new Set(page.workers());
   assert.equal(await open(true), true);
@@ -711,5 +715,5 @@ sharedDoorTest('a photo that is being read can be done without', async (page) =>
   assert.match(await caption.innerText(), /letter/);
   assert.equal(await open(false), false);
   await caption.filter({ hasText: 'large' }).waitFor();
-  await page.locator('#page-opening').waitFor({ state: 'hidden' });
+  await page.locator('#opening').waitFor({ state: 'hidden' });
 });

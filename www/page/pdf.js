@@ -36,7 +36,7 @@ export async function picturesOfPdf(file, signal) {
     return pictures;
   } catch (error) {
     const { name, message } = /** @type {Error} */ (error);
-    throw new Error(name === 'PasswordException' ? 'it is locked by a password; save it without one' : `it is damaged, or no PDF (${message}); copy, download or export it again`);
+    throw new Error(`“${file.name}” is ${name === 'PasswordException' ? 'locked by a password; save it without one' : `damaged, or no PDF (${message}); copy, download or export it again`}`);
   } finally {
     await task.destroy();
   }

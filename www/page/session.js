@@ -50,6 +50,8 @@ export class PageSession extends Events {
   quarters = 0;
 
   #isFlattening = false;
+  /** Whether another photo is being opened. */
+  isOpening = false;
   /** The newest flat page. @type {DewarpedPage | null} */
   #flat = null;
   /** The newest request; null if no page is to be flattened. @type {FlattenRequest | null} */
@@ -89,7 +91,7 @@ export class PageSession extends Events {
    * @param {PageState | null} [state] earlier state of the photo, which is restored
    */
   show(photo, pages = 1, state = null) {
-    this.photo = photo;
+    [this.photo, this.isOpening] = [photo, false];
     [this.foundLines, this.#flat, this.pageIndex, this.quarters, this.known] = [[], null, 0, 0, firstKnown()];
     this.#resetOutline(photo, pages);
     if (state) this.#setState(state);
@@ -110,7 +112,8 @@ export class PageSession extends Events {
 
   /** Announces that another photo is being opened, so that the flat page is no longer the one that is wanted; or that none was opened after all. @param {boolean} isOpening */
   setOpening(isOpening) {
-    this.emit('working', isOpening);
+    this.isOpening = isOpening;
+    this.emit('working', isOpening || (this.#isFlattening && this.#latestRequest !== null));
   }
 
   /** Selects another detected page. @param {number} page its index */
@@ -243,7 +246,7 @@ export class PageSession extends Events {
       [this.foundLines, this.#flat] = [[], null];
       this.emit('unfound', null);
       this.emit('lines', null);
-      this.emit('working', false);
+      this.emit('working', this.isOpening);
       return;
     }
     this.emit('working', true);
@@ -269,7 +272,7 @@ export class PageSession extends Events {
         this.emit('problem', error);
       }
       this.emit('lines', null);
-      if (isNewest()) this.emit('working', false);
+      if (isNewest()) this.emit('working', this.isOpening);
     }
     this.#isFlattening = false;
   }

@@ -1,11 +1,11 @@
 /** Keeps the page's address up to date with its state, for links, the history and reloads; and lists recent files. */
 import { addressOf, isStart, stateOf } from '../address.js';
 import { isExampleModel } from '../doors/example-model.js';
-import { copyText, element, elements, makeButton, SETTLING_MS } from '../dom.js';
+import { closeDialogs, copyText, element, elements, makeButton, SETTLING_MS } from '../dom.js';
 import { fileOfLink, linkedFile } from '../linked-file.js';
 import { ADDRESS_WORDS } from '../messages.js';
 import { recentFiles, storedFiles, storedOutlines, storeFiles, storeOutlines } from '../recent-files.js';
-import { showNotice } from './notice.js';
+import { hideNotice, showNotice } from './notice.js';
 
 /** @import {State} from '../address.js' */
 /** @import {Mode} from './mode.js' */
@@ -24,8 +24,9 @@ import { showNotice } from './notice.js';
  * @param {{ find: (id: string) => Card | undefined, show: (card: Card, settings?: Partial<Settings>, view?: string) => Promise<void>, present: Card | null }} page.gallery
  * @param {{ readonly now: Mode, show: (mode: Mode) => void }} page.mode
  * @param {(files: readonly File[], states: readonly (PageState | null)[], shown?: number) => Promise<unknown>} page.openPhotos opens photos of pages that were stored
+ * @param {() => boolean} page.hasPhoto whether a photo of a page is shown
  * @param {() => void} page.beginPhoto shows an example if no photo of a page is open
- * @param {() => void} page.showExamplePhoto shows an example in the place of the photo of a page that is open
+ * @param {() => unknown} page.showExamplePhoto shows an example in the place of the photo of a page that is open
  * @param {MeshFit} page.meshFit
  * @param {{ readonly isShown: boolean, enter: (view: string) => void, leave: () => void }} page.meshFitView
  */
@@ -44,6 +45,8 @@ export function addressSyncPanel(session, page) {
   let isNewInput = false;
   /** Whether the open file could not be stored. */
   let isUnstored = false;
+  /** Whether the open file is being stored: it has no address until then. */
+  let isStoring = false;
   /** Id of the open photos of pages in the storage of recent files. @type {number | undefined} */
   let photoId;
   /** The open photos of pages, in their order. @type {readonly File[]} */
@@ -76,7 +79,7 @@ export function addressSyncPanel(session, page) {
 
   /** Writes the state to the address: as a new entry of the history if more than the view differs. */
   const writeAddress = () => {
-    if (isRestoring || page.mode.now === 'home' || (page.mode.now === 'heights' && !session.input)) return;
+    if (isRestoring || !{ home: false, heights: session.input !== null && !isStoring, photo: page.hasPhoto() }[page.mode.now]) return;
     const state = presentState();
     const address = addressOf(state, session.defaults);
     const withoutView = addressOf({ ...state, view: undefined }, session.defaults);
@@ -105,8 +108,8 @@ export function addressSyncPanel(session, page) {
     if (kind !== undefined && `${kind} ${name}` !== last && !isExpected && session.settings.lambda !== 'auto') page.adopt({ ...session.settings, lambda: 'auto' });
     if (isExpected) expected = null;
     last = `${kind} ${name}`;
-    if (kind !== undefined || fileId === undefined) return;
-    fileId = undefined;
+    if (kind !== undefined || opened.length === 0) return;
+    [opened, fileId, isStoring] = [[], undefined, false];
     void updateRecentFiles();
   });
   // A change of the view gets no entry of its own in the history.
@@ -118,7 +121,8 @@ export function addressSyncPanel(session, page) {
     if (!files) return false;
     [photoId, photos] = [id, files];
     const { states, shown } = await storedOutlines(id);
-    await page.openPhotos(files, states, shown);
+    // What was cancelled is not open.
+    if (!(await page.openPhotos(files, states, shown))) photoId = undefined;
     return true;
   };
 
@@ -131,6 +135,8 @@ export function addressSyncPanel(session, page) {
   /** Shows the state of an address. @param {State} state */
   const restoreState = async (state) => {
     const own = ++newestRestore;
+    closeDialogs();
+    hideNotice();
     isRestoring = true;
     expected = null;
     clearTimeout(writeTimer);
@@ -228,20 +234,24 @@ export function addressSyncPanel(session, page) {
     },
     /** Stores files that were opened. @param {readonly File[]} files */
     async rememberFiles(files) {
-      opened = files;
-      fileId = await storeFiles(files);
-      isUnstored = fileId === undefined;
+      [opened, fileId, isStoring] = [files, undefined, true];
+      const id = await storeFiles(files);
+      // By now others may be open.
+      if (opened !== files) return;
+      [fileId, isStoring, isUnstored] = [id, false, id === undefined];
       void updateRecentFiles();
       writeAddress();
     },
     /** Stores the photos of pages that are open, with their outlines. @param {readonly BookPhoto[]} opened none for an example @param {number} shown index of the one that is shown */
     async rememberPhotos(opened, shown) {
       const before = photos;
-      photos = opened.map(({ file }) => file);
+      const mine = (photos = opened.map(({ file }) => file));
       // Photos that are added, moved or removed change the entry of those that were open.
       const id = photos.some((file) => before.includes(file)) ? photoId : undefined;
-      if (photos.length !== before.length || photos.some((file, i) => file !== before[i])) photoId = photos.length > 0 ? await storeFiles(photos, { arePhotos: true, id }) : undefined;
-      isUnstored = photos.length > 0 && photoId === undefined;
+      const isSame = mine.length === before.length && mine.every((file, i) => file === before[i]);
+      const stored = isSame ? photoId : mine.length > 0 ? await storeFiles(mine, { arePhotos: true, id }) : undefined;
+      if (photos !== mine) return;
+      [photoId, isUnstored] = [stored, mine.length > 0 && stored === undefined];
       this.rememberOutlines(opened.map(({ state }) => state), shown);
       void updateRecentFiles();
       writeAddress();
@@ -249,11 +259,6 @@ export function addressSyncPanel(session, page) {
     /** Stores the outlines of the photos of pages that are open. @param {(PageState | null)[]} states @param {number} shown */
     rememberOutlines(states, shown) {
       if (photoId !== undefined) void storeOutlines({ id: photoId, states, shown });
-    },
-    /** Updates the address after the other part of the page was shown. */
-    onModeChange() {
-      writeAddress();
-      void updateRecentFiles();
     },
   };
 }

@@ -13,11 +13,10 @@ export function dividerOver(id, [left, right], onMove, share = 0.5) {
   /** @param {number} to */
   const move = (to) => {
     share = Math.min(1, Math.max(0, to));
-    const percent = Math.round(100 * share);
     divider.style.left = `${100 * share}%`;
     divider.style.setProperty('--share', String(share));
-    divider.setAttribute('aria-valuenow', String(percent));
-    divider.setAttribute('aria-valuetext', `${left} on ${percent} % of the picture, ${right} on the rest`);
+    divider.ariaValueNow = String(Math.round(100 * share));
+    divider.setAttribute('aria-valuetext', `${left} on ${divider.ariaValueNow} % of the picture, ${right} on the rest`);
     onMove(share);
   };
   divider.addEventListener('pointerdown', (event) => {

@@ -1,5 +1,6 @@
 /** Opens files of any kind, wherever they come from: the kind of a file chooses the part of the page. */
-import { endingOf, isHeic, isPdf, kindByName } from '../file-kinds.js';
+import { closeDialogs } from '../dom.js';
+import { endingOf, isPdf, kindByName } from '../file-kinds.js';
 import { isInColour, routeFiles } from '../file-routing.js';
 import { BATCH_WORDS, FILE_WORDS, HEADLINE_WORDS } from '../messages.js';
 import { picturesOfPdf } from '../page/pdf.js';
@@ -10,10 +11,10 @@ import { showNotice } from './notice.js';
 
 /**
  * @param {Session} session
- * @param {{ readonly now: Mode, show: (mode: Mode) => void, enter: (mode: Mode) => void }} mode
+ * @param {{ readonly now: Mode, show: (mode: Mode) => void }} mode
  * @param {object} source
- * @param {(files: readonly File[]) => Promise<unknown>} source.openFiles opens heights or a mesh
- * @param {{ readonly hasPhoto: boolean, openAll: (files: readonly File[], alone: boolean) => Promise<string | null> }} page opens photos of pages; the answer is a note, or null if none could be opened
+ * @param {(files: readonly File[]) => Promise<boolean>} source.openFiles opens heights or a mesh; whether it did
+ * @param {{ openAll: (files: readonly File[], alone: boolean) => Promise<string | null> }} page opens photos of pages; the answer is a note, or null if none could be opened
  */
 export function filesPanel(session, mode, source, page) {
   /** @param {string} words @param {{ label: string, act: () => void }} [action] */
@@ -28,47 +29,52 @@ export function filesPanel(session, mode, source, page) {
    * @param {boolean} [areChosen] whether they were opened as photos of pages, so that nothing is to be said about that
    */
   const openPhotos = async (files, leftOut = '', areChosen = false) => {
-    const before = mode.now;
-    const isOtherMode = before !== 'photo';
-    mode.show('photo');
     // Photos are added to those that are shown; from another part of the page a new job begins.
-    const pageNote = await page.openAll(files, isOtherMode);
-    if (pageNote === null && !page.hasPhoto && mode.now === 'photo') mode.show(before);
-    if (pageNote === null) return;
+    const isOtherMode = mode.now !== 'photo';
+    const pageNote = await openIn('photo', () => page.openAll(files, isOtherMode));
+    if (pageNote === null || mode.now !== 'photo') return;
     const isGuess = isOtherMode && !areChosen;
     const taken = isGuess ? FILE_WORDS.takenForPages(files.length) : '';
     note([taken, pageNote, leftOut].filter(Boolean).join(' '), isGuess && files.length === 1 ? {
       label: FILE_WORDS.heightsInstead,
       act: async () => {
         if (await isInColour(files[0])) return note(FILE_WORDS.inColour(files[0].name));
-        mode.enter('heights');
-        void source.openFiles(files);
+        await openIn('heights', () => source.openFiles(files));
       },
     } : undefined);
   };
 
-  /** The mode of the page before the files that are being opened as heights, and how many openings are under way. @type {{ mode: Mode, openings: number }} */
+  /** The mode of the page before the files that are being opened, and how many openings are under way. @type {{ mode: Mode, openings: number }} */
   const earlier = { mode: 'home', openings: 0 };
+  /**
+   * Shows a part of the page while files are opened there, and the part from before if none are: what was open there is not what was asked for.
+   * @template {string | boolean | null} T
+   * @param {Mode} part
+   * @param {() => Promise<T>} openThere null or false if nothing was opened
+   */
+  const openIn = async (part, openThere) => {
+    if (earlier.openings === 0) earlier.mode = mode.now;
+    mode.show(part);
+    earlier.openings++;
+    const opened = await openThere().finally(() => earlier.openings--);
+    // Something else may be being opened by now.
+    if ((opened === null || opened === false) && earlier.openings === 0 && !session.isOpening && mode.now === part) mode.show(earlier.mode);
+    return opened;
+  };
   /** @param {readonly File[]} given @param {boolean} [arePages] whether pictures were opened as pages @returns {Promise<void>} */
   const open = async (given, arePages = mode.now === 'photo') => {
-    const files = given.some(isHeic) ? await session.whileOpening('the photos could not be read', 'reading', () => withoutHeic(given)) : given;
-    if (!files) return;
-    const pdf = files.find(isPdf);
-    if (pdf) {
-      const pages = await session.whileOpening(`“${pdf.name}” could not be read`, 'reading', (signal) => picturesOfPdf(pdf, signal));
-      return pages ? open(files.flatMap((file) => (file === pdf ? pages : file)), true) : undefined;
-    }
-    const { to, files: taken, left } = await routeFiles(files, arePages);
+    closeDialogs();
+    const areChosen = arePages || given.some(isPdf);
+    const route = await session.whileOpening(given.length === 1 ? 'The file could not be read' : 'The files could not be read', 'reading', async (signal) => {
+      const files = [];
+      for (const file of await withoutHeic(given)) files.push(...(isPdf(file) ? await picturesOfPdf(file, signal) : [file]));
+      return routeFiles(files, areChosen);
+    });
+    if (!route) return;
+    const { to, files: taken, left } = route;
     const leftOut = left.length > 0 ? FILE_WORDS.leftOut(left, to === 'photos' ? 'photo' : kindByName(taken[0]) === 'mesh' ? 'mesh' : 'depths') : '';
-    if (to === 'photos') return openPhotos(taken, leftOut, arePages);
-    if (mode.now !== 'heights' || earlier.openings === 0) earlier.mode = mode.now;
-    mode.show('heights');
-    earlier.openings++;
-    if (!(await source.openFiles(taken).finally(() => earlier.openings--))) {
-      // What was opened there before is not what was asked for, but something else may be being opened by now.
-      if (!session.isOpening && mode.now === 'heights') mode.show(earlier.mode);
-      return;
-    }
+    if (to === 'photos') return openPhotos(taken, leftOut, areChosen);
+    if (!(await openIn('heights', () => source.openFiles(taken))) || mode.now !== 'heights') return;
     // The start of a run hides the notice, so it is shown afterwards.
     const openable = left.filter(kindByName);
     const scans = [taken[0], ...left.filter((file) => endingOf(file) === endingOf(taken[0]))];
@@ -79,6 +85,7 @@ export function filesPanel(session, mode, source, page) {
   };
   return {
     open,
+    openIn,
     /** Opens a file of heights that turned out to be a picture in colour. @param {File} file */
     openColour: (file) => openPhotos([file]),
   };

@@ -9,9 +9,7 @@ const SHARED_CACHE_NAME = 'shared with developable';
 /** @param {(files: File[]) => unknown} open */
 export function watchIncoming(open) {
   /** @param {File[]} files */
-  const take = (files) => {
-    if (files.length > 0) open(files);
-  };
+  const take = (files) => files.length > 0 && open(files);
   addEventListener('paste', ({ clipboardData }) => take([...clipboardData?.files ?? []]));
   /** @type {{ launchQueue?: { setConsumer: (take: (launch: Launch) => void) => void } }} */
   const { launchQueue } = /** @type {any} */ (window);

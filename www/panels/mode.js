@@ -6,8 +6,8 @@ import { element } from '../dom.js';
 /** The guide to each job. */
 const GUIDES = { home: './guide/docs/page.html', photo: './guide/docs/dewarp.html', model: './guide/docs/meshes.html', scan: './guide/docs/scans.html' };
 
-/** @param {Session} session @param {(mode: Mode) => void} onEnter */
-export function modePanel(session, onEnter) {
+/** @param {Session} session */
+export function modePanel(session) {
   const sides = { home: element('home', HTMLElement), heights: element('heights-side', HTMLElement), photo: element('page-side', HTMLElement) };
   /** @type {Mode} */
   let now = 'heights';
@@ -18,7 +18,7 @@ export function modePanel(session, onEnter) {
     element('guide', HTMLAnchorElement).href = GUIDES[job];
   };
   session.on('input', showJob);
-  /** @param {Mode} mode */
+  /** Shows a part of the page. @param {Mode} mode */
   const show = (mode) => {
     // From far down the doors to the top of what is behind one.
     if (mode !== now) window.scrollTo(0, 0);
@@ -29,14 +29,7 @@ export function modePanel(session, onEnter) {
     showJob();
   };
   return {
-    /** Shows a part of the page, and calls `onEnter`. @param {Mode} mode */
-    enter: (mode) => {
-      show(mode);
-      onEnter(mode);
-    },
-    /** Shows a part of the page without calling `onEnter`. */
     show,
-    /** @returns {Mode} */
     get now() {
       return now;
     },

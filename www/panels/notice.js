@@ -28,6 +28,4 @@ export function showNotice(message, kind = 'alert', action) {
 export const showError = (doing, error) => showNotice(errorMessage(doing, error));
 
 /** Hides the notice. */
-export function hideNotice() {
-  element('notice', HTMLElement).hidden = true;
-}
+export const hideNotice = () => void (element('notice', HTMLElement).hidden = true);

@@ -8,12 +8,11 @@ import { openPhoto, preparePhoto } from '../page/photo.js';
 import { PageSession } from '../page/session.js';
 import { readPicture } from '../pixels.js';
 import { errorMessage } from '../messages.js';
-import { hideNotice, showError, showNotice } from './notice.js';
+import { hideNotice, showNotice } from './notice.js';
 import { pageBookPanel } from './page-book.js';
 import { pageKnownPanel } from './page-known.js';
 import { pagePhotoPanel } from './page-photo.js';
 import { pageResultPanel } from './page-result.js';
-import { PROGRESS_DELAY_MS, waitingPanel } from './waiting.js';
 
 /** @import {BookPhoto} from '../page/book.js' */
 
@@ -25,22 +24,17 @@ const EXAMPLES = {
 const EXAMPLE_FILM35 = 31.1;
 
 /**
- * @param {Api} api
+ * @param {Session} opener opens files, one at a time
  * @param {(photos: readonly BookPhoto[], shown: number) => void} onOpened called when photos were opened, shown, added, moved or removed; none for an example
  * @param {(states: (PageState | null)[], shown: number) => void} onChanged called when outlines of the photos have changed
  */
-export function pagePanel(api, onOpened, onChanged) {
+export function pagePanel(opener, onOpened, onChanged) {
+  const { api } = opener;
   /** Created with the first photo. @type {PageSession | null} */
   let session = null;
   const book = new Book();
-  /** Aborts the photo that is being opened; null before the first one. @type {AbortController | null} */
-  let opening = null;
-  const waiting = waitingPanel(element('page-opening', HTMLElement), () => {
-    opening?.abort();
-    session?.setOpening(false);
-    waiting.end();
-  }, PROGRESS_DELAY_MS);
-  let storeTimer = 0;
+  /** Number of the newest photo that was asked for, and a timer. */
+  let [newest, storeTimer] = [0, 0];
 
   const ensureSession = () => {
     if (session) return session;
@@ -59,38 +53,42 @@ export function pagePanel(api, onOpened, onChanged) {
 
   /**
    * Opens a photo in the place of the last one.
-   * @param {(signal: AbortSignal) => Promise<PagePhoto>} load
-   * @param {{ pages?: number, task?: Task, state?: PageState | null }} [more] `state`: edits of the photo, when it was open before
-   * @returns {Promise<boolean>} false if it was cancelled, or another photo was opened meanwhile
-   * @throws if the photo cannot be opened
+   * @param {string} doing what could not be done, for the message if it fails
+   * @param {Task} task
+   * @param {(signal: AbortSignal) => Promise<PagePhoto | null>} load null if that has failed
+   * @param {number} [pages]
+   * @param {PageState | null} [state] edits of the photo, when it was open before
+   * @returns {Promise<boolean | null>} whether it is shown; null if another photo is asked for by now
    */
-  const show = async (load, { pages, task, state } = {}) => {
-    opening?.abort();
-    const { signal } = (opening = new AbortController());
+  const show = async (doing, task, load, pages, state) => {
+    const own = ++newest;
     const pageSession = ensureSession();
-    waiting.end();
-    if (task) waiting.begin(task);
     pageSession.setOpening(true);
-    try {
-      const photo = await load(signal);
-      if (signal.aborted) return false;
-      hideNotice();
-      pageSession.show(photo, pages, state);
-      return true;
-    } catch (error) {
-      if (signal.aborted) return false;
-      pageSession.setOpening(false);
-      throw error;
-    } finally {
-      if (!signal.aborted) waiting.end();
-    }
+    const photo = await opener.whileOpening(doing, task, load);
+    if (own !== newest) return null;
+    if (photo) hideNotice();
+    if (photo) pageSession.show(photo, pages, state);
+    else pageSession.setOpening(false);
+    return photo !== null;
+  };
+  /** Puts back the photos from before, since none has taken their place. @param {typeof book.snapshot} earlier */
+  const giveUp = (earlier) => {
+    Object.assign(book, earlier);
+    list.renew();
+    return null;
   };
 
-  /** Opens a photo of the book by its index. @param {number} at @throws if it cannot be opened */
-  const openAt = async (at) => {
+  /** Opens a photo of the book by its index. @param {number} at @param {string[]} [problems] gets why it cannot be opened, which is shown otherwise */
+  const openAt = async (at, problems) => {
     if (!session?.photo?.file) history.clear();
     const { file, state } = book.photos[at];
-    if (!(await show((signal) => openPhoto(api, file, signal), { task: 'reading', state }))) return false;
+    const doing = `“${file.name}” could not be opened`;
+    const isShown = await show(doing, 'reading', (signal) => openPhoto(api, file, signal).catch((error) => {
+      if (!problems || signal.aborted) throw error;
+      problems.push(errorMessage(doing, error));
+      return null;
+    }), undefined, state);
+    if (!isShown) return isShown;
     examples.set('');
     book.index = at;
     note();
@@ -101,7 +99,7 @@ export function pagePanel(api, onOpened, onChanged) {
   /** @type {History<import('../page/book.js').BookState>} */
   const history = new History(element('page-side', HTMLElement), ({ photos, index, shown }) => {
     book.photos = photos.map((photo) => ({ ...photo }));
-    if (session?.photo?.file !== photos[index]?.file) return void showPhoto(index);
+    if (session?.photo?.file !== photos[index]?.file) return void openAt(index);
     book.index = index;
     list.renew();
     session?.restore(shown);
@@ -112,12 +110,10 @@ export function pagePanel(api, onOpened, onChanged) {
     book.saveState(session);
     history.note({ ...book.snapshot, shown: session.state() });
   };
-  /** Opens a photo of the book that the user has chosen. @param {number} at */
-  const showPhoto = (at) => openAt(at).catch((error) => showError(`“${book.photos[at].file.name}” could not be opened`, error));
-  const list = pageBookPanel(book, showPhoto, async () => {
+  const list = pageBookPanel(book, (at) => void openAt(at), async () => {
     note();
     const { file } = book.remove(book.index);
-    await showPhoto(book.index);
+    await openAt(book.index);
     showNotice(BOOK_WORDS.removed(file.name), 'note', { label: BOOK_WORDS.undo, act: () => history.step() });
   }, () => {
     note();
@@ -133,12 +129,6 @@ export function pagePanel(api, onOpened, onChanged) {
   const openAll = async (files, alone = false) => {
     const earlier = book.snapshot;
     if (alone) book.setFiles([]);
-    /** Puts back the photos from before, since none has taken their place. */
-    const giveUp = () => {
-      Object.assign(book, earlier);
-      list.renew();
-      return null;
-    };
     const before = book.photos.length;
     const opened = book.addFiles(files).map((at) => book.photos[at]);
     const added = book.photos.length - before;
@@ -147,21 +137,19 @@ export function pagePanel(api, onOpened, onChanged) {
     const problems = [];
     let isShown = false;
     for (const photo of opened) {
-      try {
-        isShown = await openAt(book.photos.indexOf(photo));
-        if (isShown) break;
-        // Another photo was chosen meanwhile, or the user has cancelled.
-        return opening?.signal.aborted ? giveUp() : null;
-      } catch (error) {
-        problems.push(errorMessage(`“${photo.file.name}” could not be opened`, error));
-        book.remove(book.photos.indexOf(photo));
-        list.renew();
-      }
+      const known = problems.length;
+      const isOpened = await openAt(book.photos.indexOf(photo), problems);
+      isShown = isOpened === true;
+      if (isShown) break;
+      // Another photo was chosen meanwhile, or it was cancelled.
+      if (problems.length === known) return isOpened === null ? null : giveUp(earlier);
+      book.remove(book.photos.indexOf(photo));
+      list.renew();
     }
     const words = problems.join(' ');
     if (!isShown) {
       showNotice(words, 'note');
-      return giveUp();
+      return giveUp(earlier);
     }
     const isAdded = before > 0 && added > problems.length;
     if (isAdded && added === 1) {
@@ -171,44 +159,45 @@ export function pagePanel(api, onOpened, onChanged) {
     return [isAdded ? BOOK_WORDS.added(added - problems.length, book.photos.length) : '', words].filter(Boolean).join(' ');
   };
   const openExample = async () => {
+    const earlier = book.snapshot;
     book.setFiles([]);
     history.clear();
     list.renew();
     const name = examples.value || 'curled';
     const { address, pages } = EXAMPLES[name];
-    try {
-      const isShown = await show(async (signal) => {
-        const { width, height, data } = await readPicture(new File([await (await fetch(address, { signal })).blob()], name));
-        return preparePhoto(api, { width, height, data, film35: EXAMPLE_FILM35 }, name, signal);
-      }, { pages });
-      if (isShown) onOpened([], 0);
-    } catch (error) {
-      showError('The example could not be made', error);
-    }
+    const isShown = await show('The example could not be made', 'making', async (signal) => {
+      const { width, height, data } = await readPicture(new File([await (await fetch(address, { signal })).blob()], name));
+      return preparePhoto(api, { width, height, data, film35: EXAMPLE_FILM35 }, name, signal);
+    }, pages);
+    if (isShown) onOpened([], 0);
+    else if (isShown === false) giveUp(earlier);
+    return isShown;
   };
   const examples = choiceOf('page-example', Object.fromEntries(Object.entries(EXAMPLES).map(([name, { label }]) => [name, label])), openExample);
+  const isOccupied = () => session !== null && (session.photo !== null || session.isOpening);
   return {
     openAll,
     /** Whether a photo or an example is shown. */
-    get hasPhoto() {
-      return session !== null && session.photo !== null;
-    },
+    hasPhoto: () => session !== null && session.photo !== null,
     /** Opens photos that this browser has kept, with their outlines. @param {readonly File[]} files @param {readonly (PageState | null)[]} states @param {number} [shown] index of the one that is shown */
     async openStored(files, states, shown = 0) {
+      const earlier = book.snapshot;
       history.clear();
       book.setFiles(files, states);
       list.renew();
-      await showPhoto(shown);
+      const isShown = await openAt(shown);
+      return isShown === false ? giveUp(earlier) : isShown;
     },
     /** Opens an example if no photo was opened yet. */
     begin: () => {
-      if (!opening) void openExample();
+      if (!isOccupied()) void openExample();
     },
     /** Opens an example, unless it is the one that is open. */
-    showExample: () => {
-      if (examples.value && opening) return;
-      examples.set('curled');
-      void openExample();
+    showExample: async () => {
+      const isThere = examples.value !== '' && isOccupied();
+      if (isThere) onOpened([], 0);
+      else examples.set('curled');
+      return isThere || openExample();
     },
   };
 }

@@ -8,11 +8,7 @@ import { figures, key } from './legend.js';
 /** Colour of rulings, visible on bright and dark steel. @type {Colour} */
 const RULING_COLOUR = [232, 89, 12];
 
-/**
- * @param {readonly Ruling[]} lines
- * @param {string | null} [unit]
- * @returns {ViewContent}
- */
+/** @param {readonly Ruling[]} lines @param {string | null} [unit] @returns {ViewContent} */
 export function rulings(lines, unit) {
   const deviations = lines.map(({ deviation }) => deviation).sort((a, b) => a - b);
   return {

@@ -169,7 +169,6 @@ export function sharedTest(name, body, { drawn = false, start = SMALL_EXAMPLE } 
     try {
       // Behind another tab a frame takes a second or two.
       await page.bringToFront();
-      await page.evaluate(() => document.querySelectorAll('dialog').forEach((dialog) => dialog.close()));
       await page.goto(`${server.url}#`);
       await page.locator('#home').waitFor();
       if (start) {

@@ -81,9 +81,8 @@ impl Noise {
             product: 0.0,
             step: step.filter(|_| is_rounding),
         };
-        // Beside rough noise, what is smoother than any that is tried is a shape, as of steps.
-        let is_rough = white > MIN_NOISE_SHARE * height_range(input) && !input.is_measured;
-        if let Some(found) = correlated_noise(input, !is_rough)? {
+        // What is smoother than any noise that is tried is a shape, unless a camera has measured it.
+        if let Some(found) = correlated_noise(input, input.is_measured)? {
             let root = found.white_equivalent;
             if found.is_anisotropic || root >= MIN_CORRELATED_RATIO * white {
                 noise.sigma = found.sigma;

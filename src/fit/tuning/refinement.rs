@@ -28,6 +28,30 @@ pub(crate) enum Aim {
     Distance { distance: f64, is_exact: bool },
 }
 
+impl Aim {
+    /// Unit of the distances on a lattice whose spacing is `spacings` times the input's, the size of the noise there or the distance
+    /// that is aimed at, and the largest distance that counts, in this unit.
+    fn unit(self, spacings: f64) -> [f64; 2] {
+        match self {
+            Aim::Noise(noise) => {
+                let unit = (noise.white_equivalent / spacings).min(noise.vertex_sigma);
+                [unit, MAX_RESIDUAL]
+            }
+            Aim::Distance { distance, .. } => [distance, f64::INFINITY],
+        }
+    }
+
+    /// Least distance that will do, the one that is aimed at, and the largest one that will do, in [`Aim::unit`].
+    fn range(self) -> [f64; 3] {
+        let between = 0.5 * (1.0 + MIN_TOLERANCE_SHARE);
+        match self {
+            Aim::Noise(_) => [0.0, 1.0, MAX_NOISE_DISTANCE],
+            Aim::Distance { is_exact: true, .. } => [MIN_TOLERANCE_SHARE, between, 1.0],
+            Aim::Distance { .. } => [0.0, between, 1.0],
+        }
+    }
+}
+
 /// λ of the next solve, or the λ to keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Next {
@@ -42,10 +66,8 @@ pub(crate) struct Refinement {
     /// Spacing of the lattice, in those of the input's.
     spacings: f64,
     /// Number of solves so far.
-    pub solves: usize,
-    /// λ and residual of the best solve.
-    best: Option<(f64, f64)>,
-    /// λ and distance of the solve that is farthest from the heights within the tolerance, and of the nearest one beyond it.
+    solves: usize,
+    /// λ and distance of the solve that is farthest from the heights of those near enough, and of the nearest one beyond them.
     within: Option<(f64, f64)>,
     beyond: Option<(f64, f64)>,
 }
@@ -57,88 +79,49 @@ impl Refinement {
             aim,
             spacings,
             solves: 0,
-            best: None,
             within: None,
             beyond: None,
         }
     }
 
-    /// Unit of the distances, the size of the noise on the lattice or the distance that is aimed at, and the largest distance that
-    /// counts, in this unit.
+    /// Unit of the distances, and the largest distance that counts, in this unit.
     pub(crate) fn unit(&self) -> [f64; 2] {
-        match self.aim {
-            Aim::Noise(noise) => {
-                let unit = (noise.white_equivalent / self.spacings).min(noise.vertex_sigma);
-                [unit, MAX_RESIDUAL]
-            }
-            Aim::Distance { distance, .. } => [distance, f64::INFINITY],
-        }
+        self.aim.unit(self.spacings)
     }
 
-    /// Takes the root mean square residual of a solve, in [`Refinement::unit`], and returns λ of the next one.
-    pub(crate) fn next(&mut self, lambda: f64, residual: f64) -> Next {
+    /// Takes the root mean square distance of a solve to the heights, in [`Refinement::unit`], and returns λ of the next one.
+    pub(crate) fn next(&mut self, lambda: f64, distance: f64) -> Next {
         self.solves += 1;
-        let next = match self.aim {
-            Aim::Noise(_) => self.next_for_noise(lambda, residual),
-            Aim::Distance { is_exact, .. } => self.next_for_distance(is_exact, lambda, residual),
-        };
-        let largest = *LAMBDA_RANGE.end();
-        match next {
-            Next::Solve(wanted) if wanted > largest && lambda >= largest => Next::Keep(lambda),
-            Next::Solve(wanted) => Next::Solve(wanted.min(largest)),
-            kept => kept,
-        }
-    }
-
-    /// Raises λ where a part of the shape is lost, as long as the residual falls.
-    fn next_for_noise(&mut self, lambda: f64, residual: f64) -> Next {
-        if let Some((best, least)) = self.best
-            && residual >= least
-        {
-            return Next::Keep(best);
-        }
-        self.best = Some((lambda, residual));
-        match residual > MAX_NOISE_DISTANCE && self.solves < MAX_SOLVES {
-            true => Next::Solve(nearer(lambda, residual)),
-            false => Next::Keep(lambda),
-        }
-    }
-
-    /// Looks for the λ at which the distance is nearly the one aimed at; unless it is exact, a smaller one does as well.
-    fn next_for_distance(&mut self, is_exact: bool, lambda: f64, distance: f64) -> Next {
         let distance = distance.max(1e-6);
-        let is_within = distance <= 1.0;
-        let side = if is_within {
-            &mut self.within
-        } else {
-            &mut self.beyond
+        let [least, wanted, most] = self.aim.range();
+        let is_within = distance <= most;
+        let side = match is_within {
+            true => &mut self.within,
+            false => &mut self.beyond,
         };
         *side = Some((lambda, distance));
-        if is_within && (!is_exact || distance >= MIN_TOLERANCE_SHARE) {
+        let largest = *LAMBDA_RANGE.end();
+        if is_within && distance >= least || !is_within && lambda >= largest {
             return Next::Keep(lambda);
         }
+        // It falls with the square root of λ.
+        let nearer = lambda * (distance / wanted).powi(2).clamp(1e-3, 1e3);
         if self.solves + 1 >= MAX_SOLVES {
-            let (kept, _) = self.within.unwrap_or((2.0 * nearer(lambda, distance), 1.0));
+            let kept = self.within.map_or(2.0 * nearer, |(lambda, _)| lambda);
             // At full size a λ that is kept is that of the solve.
             return match self.spacings > 1.0 {
-                true => Next::Keep(kept),
+                true => Next::Keep(kept.min(largest)),
                 false if kept == lambda || self.solves >= MAX_SOLVES => Next::Keep(lambda),
-                false => Next::Solve(kept),
+                false => Next::Solve(kept.min(largest)),
             };
         }
-        let wanted = 0.5 * (1.0 + MIN_TOLERANCE_SHARE);
-        Next::Solve(match (self.within, self.beyond) {
+        let next = match (self.within, self.beyond) {
             (Some((large, near)), Some((small, far))) => {
                 let share = (far / wanted).ln() / (far / near).ln();
                 small * (large / small).powf(share.clamp(0.1, 0.9))
             }
-            _ => nearer(lambda, distance / wanted),
-        })
+            _ => nearer,
+        };
+        Next::Solve(next.min(largest))
     }
-}
-
-/// Returns the λ at which the distance to the heights, now `distance` times the one aimed at, is about that: it falls with the
-/// square root of λ.
-fn nearer(lambda: f64, distance: f64) -> f64 {
-    lambda * distance.powi(2).clamp(1e-3, 1e3)
 }

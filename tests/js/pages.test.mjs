@@ -234,7 +234,7 @@ test('a page is found at one resolution, and flattened at any', async () => {
   assert.ok(fine.width > 1000 && fine.resolution > 5, String(fine.width));
   // As a program keeps the page: by its size and warp alone.
   const { size, unit, warp } = structuredClone(preview);
-  assert.deepEqual(direct.flattenPhoto(large, { size, unit, warp }, { light: 'keep' }), fine);
+  assert.deepEqual(direct.flattenPhoto(large, { size, unit, warp }, { light: 'keep', dots: 1 }), file);
   assert.throws(() => direct.flattenPhoto(large, /** @type {any} */ ({ size })), error('INPUT', /dewarpPage/));
   assert.throws(() => direct.flattenPhoto(large, { size, unit, warp: { ...warp, rows: 3 } }), error('SHAPE', /warp/));
   assert.throws(() => direct.flattenPhoto(large, preview, /** @type {any} */ ({ page: 'a4' })), error('OPTION', /page/));

@@ -118,6 +118,14 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   assert.match(await page.locator('#verdict').innerText(), /^\d+ smooth pieces meet in \d+ creases\.$/);
   assert.match(await page.locator('#verdict-detail').innerText(), /^[\d.]+× less noise \(against the noise-free example\)/);
   assert.equal(await page.locator('#story-turn').isVisible(), false);
+  // Those of an address hold, even where they follow a card's.
+  await runBy(page, () => page.evaluate(() => void (location.hash = '#example=cone&size=100&noise=0.02&lambda=200000&energy=nuclear')));
+  assert.equal(parsed(await reported(page, 'λ')), 2e5);
+  assert.equal(await page.getByLabel('Energy').inputValue(), 'nuclear');
+  // λ is of its input; the energy is a wish for all.
+  await open(page, 'third.npy', npy(48, grid(48, 36, (col) => 2 * col)));
+  assert.equal(await page.locator('#lambda-auto').getAttribute('aria-pressed'), 'true');
+  assert.equal(await page.getByLabel('Energy').inputValue(), 'nuclear');
   // A rotation as the paper's, of which the result is the same.
   await runBy(page, () => page.evaluate(() => void (location.hash = '#fig-22')));
   for (const angle of ['0', '45']) {
@@ -132,13 +140,4 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   // So do the settings that made its point.
   assert.equal(await page.getByLabel('Energy').inputValue(), 'huber');
   assert.equal(await page.locator('#lambda-auto').getAttribute('aria-pressed'), 'true');
-  // Those of an address hold, even where they follow a card's.
-  await runBy(page, () => page.evaluate(() => void (location.hash = '#fig-11')));
-  await runBy(page, () => page.evaluate(() => void (location.hash = '#example=cone&size=100&noise=0.02&lambda=200000&energy=nuclear')));
-  assert.equal(parsed(await reported(page, 'λ')), 2e5);
-  assert.equal(await page.getByLabel('Energy').inputValue(), 'nuclear');
-  // λ is of its input; the energy is a wish for all.
-  await open(page, 'third.npy', npy(48, grid(48, 36, (col) => 2 * col)));
-  assert.equal(await page.locator('#lambda-auto').getAttribute('aria-pressed'), 'true');
-  assert.equal(await page.getByLabel('Energy').inputValue(), 'nuclear');
 }, { start: '#example=roof&size=100' });

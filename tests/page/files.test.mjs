@@ -180,6 +180,7 @@ sharedDoorTest('what the name of a file does not tell, its contents do', async (
   // Nothing is passed over without a word.
   await said('camera.json', '{"fx":5,"fy":5,"cx":2,"cy":2}', '#notice-text', /“camera\.json” has no heights.* If it is a camera, open it together with its depths/);
   await said('table.csv', rows.map((row) => row.join(',')).join('\n'), '#input-caption', `table, ${WIDTH} × ${HEIGHT}`);
+  await said('notes.csv', 'a,b\nc,d\n', '#notice-text', /“notes\.csv” has no heights/);
   await said('matrix.txt', rows.map((row) => row.join(' ')).join('\n'), '#input-caption', `matrix, ${WIDTH} × ${HEIGHT}`);
   await said('part.STL.txt', 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 60 0 0\nvertex 0 60 0\nendloop\nendfacet\nendsolid a\n', '#mesh-name', 'part.STL (STL)');
   await settled(page);

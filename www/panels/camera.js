@@ -82,7 +82,8 @@ export function cameraPanel(session, openLoadedMesh) {
       describe();
       return true;
     } catch (error) {
-      if (mayBeOther && hasCode(error, 'FORMAT')) return undefined;
+      // Where no depths are open, a text was not meant as their camera.
+      if ((mayBeOther || !(input.depths || depthCheckbox.checked)) && hasCode(error, 'FORMAT')) return undefined;
       session.fail(`“${file.name}” could not be used`, error);
       return false;
     }

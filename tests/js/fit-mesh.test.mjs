@@ -154,7 +154,6 @@ test('the command fits whole meshes, and says so where a view would lose much', 
   assert.equal(report.vertices, noisy.positions.length / 3);
   const found = direct.readMesh(await readFile(join(folder, 'whole.ply')));
   assert.ok(off(found.positions) < 0.4 * sigma);
-  // Other formats are written alike.
   assert.equal((await run(folder, ['fit', 'scan.ply', '--unit', 'mm', '-o', 'whole.stl', '--surface'])).stderr, '');
   assert.equal(direct.readMesh(await readFile(join(folder, 'whole.stl'))).triangles.length, noisy.triangles.length);
   const seen = await run(folder, ['fit', 'scan.ply', '-o', 'seen.ply', '--view', '-x']);
@@ -173,7 +172,6 @@ test('the command fits whole meshes, and says so where a view would lose much', 
   assert.match((await run(folder, ['fit', 'scan.png', '-o', 'x.ply', '--surface'])).stderr, /--surface is for meshes/);
 });
 
-/** Three triangles at one edge. */
 /** Three triangles along one edge, of areas 1/2, √2/2 and √2/2. */
 const branched = { positions: Float64Array.of(0, 0, 0, 0, 0, 1, 1, 0, 0.5, -1, 1, 0.5, -1, -1, 0.5), triangles: Uint32Array.of(0, 1, 2, 1, 0, 3, 0, 1, 4) };
 

@@ -136,7 +136,7 @@ fn whole_line(sheet: &Sheet, fold: &Fold) -> (Vec<usize>, [Point; 2]) {
 }
 
 /// The ends of a fold.
-fn tips(fold: &Fold) -> [Point; 2] {
+pub(super) fn tips(fold: &Fold) -> [Point; 2] {
     [fold.points[0], fold.points[fold.points.len() - 1]].map(|tip| point(&tip))
 }
 

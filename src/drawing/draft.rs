@@ -5,14 +5,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::curve::Curve;
 use super::label::Label;
 use super::leader::place_leader;
-use super::line::{FLATTENING_TOLERANCE_MM, Line};
+use super::line::{FLATTENING_TOLERANCE_MM, Line, Wall, walls_of};
 use super::lines::Lines;
 use super::marks::seam_marks;
 use super::offset::offset_outwards;
 use super::options::DrawingOptions;
 use super::pack::Place;
 use super::sheet::{DrawnSheet, PrintedTriangle};
-use super::tabs::{SeamSides, Wall, add_tabs, walls_of};
+use super::tabs::{SeamSides, add_tabs};
 use crate::pattern::{Seam, Sheet};
 
 /// Assigns letters to the creases that are cut, by which both sides of a seam are labelled; returns the letters by the

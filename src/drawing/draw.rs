@@ -3,12 +3,13 @@
 use std::collections::BTreeSet;
 
 use super::bend::apply_bend_allowance;
+use super::bend_lines::thin_lines;
 use super::draft::{SeamAnnotations, letters};
 use super::label::{Label, LabelKind};
 use super::lines::Lines;
 use super::marks::mark_counts;
 use super::nest::Shape;
-use super::options::{DrawingOptions, MAX_SIZE};
+use super::options::{DrawingOptions, MAX_SIZE, MIN_LINE_DISTANCE_MM};
 use super::pack::{Place, pack_rows};
 use super::pages::{Arranged, MAX_PAGES, Pages, Stock, arrange_on_pages, page_count};
 use super::sheet::DrawnSheet;
@@ -80,7 +81,13 @@ impl Drawing {
         }
         let letters = letters(sheets);
         let sheets: &[Sheet] = &(sheets.iter().enumerate())
-            .map(|(number, sheet)| apply_bend_allowance(number, sheet, options))
+            .map(|(number, sheet)| {
+                let mut sheet = apply_bend_allowance(number, sheet, options)?;
+                if options.bending.is_none() {
+                    thin_lines(&mut sheet.folds, MIN_LINE_DISTANCE_MM / scale);
+                }
+                Ok(sheet)
+            })
             .collect::<Result<Vec<_>>>()?;
         let lines: Vec<Lines> = sheets.iter().map(|s| Lines::new(s, options)).collect();
         let outlines: Vec<_> = lines.iter().map(|own| &own.outlines[..]).collect();

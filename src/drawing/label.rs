@@ -1,7 +1,7 @@
 //! Texts on the sheets of a drawing: their contents, sizes and positions.
 
 use super::curve::Curve;
-use super::line::{FLATTENING_TOLERANCE_MM, Line, place_at};
+use super::line::{FLATTENING_TOLERANCE_MM, Line, Wall, place_at};
 use super::tabs::Tab;
 use crate::math::planar::{Point2, bounds, cross, distance, is_within, polyline_length};
 use crate::pattern::{Direction, Seam};
@@ -127,7 +127,7 @@ impl Label {
     }
 
     /// Returns whether a straight line crosses the text's bounding box (clipped to the slabs of the box, in its axes).
-    fn is_crossed_by(&self, line: &[[f64; 2]; 2]) -> bool {
+    fn is_crossed_by(&self, line: &Wall) -> bool {
         let half = self.half_extent();
         let (sin, cos) = self.turn.to_radians().sin_cos();
         let middle = Point2::new(self.place[0], self.place[1]);
@@ -153,8 +153,8 @@ impl Label {
     pub(super) fn without_collisions(
         beside: Vec<Label>,
         mut texts: Vec<Vec<Label>>,
-        outlines: &[[[f64; 2]; 2]],
-        folds: &[[[f64; 2]; 2]],
+        outlines: &[Wall],
+        folds: &[Wall],
     ) -> Vec<Label> {
         let rank = |candidates: &Vec<Label>| match candidates.first().map(|label| label.kind) {
             Some(LabelKind::Seam) => 0,
@@ -168,7 +168,7 @@ impl Label {
                 .map(|p| [p.re, p.im])
                 .collect();
             let [low, high] = bounds(corners.iter());
-            let is_near = |line: &&[[f64; 2]; 2]| {
+            let is_near = |line: &&Wall| {
                 (0..2).all(|k| {
                     line[0][k].min(line[1][k]) <= high[k] && line[0][k].max(line[1][k]) >= low[k]
                 })

@@ -2,6 +2,7 @@
 
 use super::curve::Curve;
 use super::label::{Label, TEXT_SIZE_MM};
+use super::line::Wall;
 use crate::math::planar::{distance, distance_to_segment};
 
 /// Number of directions in which a leader line from a small patch to its number is tried, evenly spaced over a full
@@ -13,7 +14,7 @@ const LEADER_DIRECTIONS: u32 = 24;
 /// if there is no such direction.
 pub(super) fn place_leader(
     label: &Label,
-    walls: &[[[f64; 2]; 2]],
+    walls: &[Wall],
     others: &[Label],
 ) -> Option<(Label, Curve)> {
     let from = label.place;
@@ -48,7 +49,7 @@ pub(super) fn place_leader(
 
 /// Computes the distance from the start of a ray to the ray's intersection with a line segment; `None` if they do not
 /// meet.
-fn hit(from: [f64; 2], [x, y]: [f64; 2], [p, q]: [[f64; 2]; 2]) -> Option<f64> {
+fn hit(from: [f64; 2], [x, y]: [f64; 2], [p, q]: Wall) -> Option<f64> {
     let side = |r: [f64; 2]| x * (r[1] - from[1]) - y * (r[0] - from[0]);
     let (a, b) = (side(p), side(q));
     if (a > 0.0) == (b > 0.0) {

@@ -1,4 +1,4 @@
-//! Fold lines of a drawn sheet, and positions along polylines.
+//! Fold lines of a drawn sheet, and the segments of polylines and positions along them.
 
 use super::curve::Curve;
 use super::options::DrawingOptions;
@@ -7,6 +7,13 @@ use crate::pattern::{Direction, Fold, Seam};
 
 /// Maximum distance between a curve of a drawing and the polyline that approximates it, in millimetres.
 pub(super) const FLATTENING_TOLERANCE_MM: f64 = 0.02;
+
+/// A line segment that tabs and texts must not touch.
+pub(super) type Wall = [[f64; 2]; 2];
+
+pub(super) fn walls_of(line: &[[f64; 2]]) -> Vec<Wall> {
+    line.windows(2).map(|p| [p[0], p[1]]).collect()
+}
 
 /// A fold line of a drawn sheet: a line along which the sheet is folded.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,14 +25,15 @@ pub(super) const FLATTENING_TOLERANCE_MM: f64 = 0.02;
 #[non_exhaustive]
 pub struct Line {
     /// Number of the crease that the fold line follows, from 0, its index in
-    /// [`Pattern::creases`](crate::pattern::Pattern::creases).
+    /// [`Pattern::creases`](crate::pattern::Pattern::creases); of lines of a bend that are less than a millimetre apart, one is drawn.
     pub crease: usize,
     /// Numbers of the patches on either side of the fold line, from 0, the lower one first.
     #[cfg_attr(feature = "serde", serde(default))]
     pub patches: [u32; 2],
     /// Whether the fold is a mountain or a valley fold, seen from above.
     pub direction: Direction,
-    /// Fold angle in degrees: 0 where the sheet stays flat. Folds of at most half a degree are not drawn.
+    /// Fold angle in degrees: 0 where the sheet stays flat. Folds of at most half a degree are not drawn; a line of a bend also has the angle
+    /// of those beside it that are not.
     pub angle: f64,
     /// The smooth bend that the fold line is a part of.
     #[cfg_attr(

@@ -19,11 +19,13 @@
 //! ```
 
 mod bend;
+mod bend_lines;
 mod bending;
 mod circle;
 mod curve;
 mod draft;
 mod draw;
+mod flap;
 mod label;
 mod leader;
 mod line;

@@ -54,8 +54,9 @@ impl Default for DrawingOptions {
 /// Maximum width or height of a drawing, in millimetres.
 pub const MAX_SIZE: f64 = 50_000.0;
 
-/// Minimum distance between marks along a joint, in millimetres.
-const MIN_MARK_DISTANCE_MM: f64 = 1.0;
+/// Minimum distance between the lines along which a bend is scored, and between marks along a joint, in millimetres. No table chose it: it is
+/// the width of a scoring tool.
+pub(super) const MIN_LINE_DISTANCE_MM: f64 = 1.0;
 
 /// Maximum kerf (width that a cutter takes away) and maximum allowance (extra width along edges), in millimetres.
 const MAX_OFFSET_MM: f64 = 1000.0;
@@ -70,7 +71,7 @@ impl DrawingOptions {
         self.tabs.map(|t| positive("tabs", t)).transpose()?;
         if let Some(marks) = self
             .marks
-            .filter(|d| !(MIN_MARK_DISTANCE_MM..=MAX_SIZE).contains(d))
+            .filter(|d| !(MIN_LINE_DISTANCE_MM..=MAX_SIZE).contains(d))
         {
             return Err(Error::option(
                 "marks",

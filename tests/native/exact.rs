@@ -278,6 +278,14 @@ fn a_hole_through_a_block_has_two_circles_and_a_strip() {
     }
     let file = String::from_utf8(write_dxf(&drawing).unwrap()).unwrap();
     assert_eq!(file.matches("\r\nCIRCLE\r\n").count(), 2);
+    // Half as large, its lines are too near to be scored.
+    for (scale, count) in [(1.0, 47), (0.5, 23), (0.1, 4)] {
+        let options = DrawingOptions::default().scale(scale);
+        let folds = &Drawing::new(&pattern.sheets, &options).unwrap().sheets[1].folds;
+        let angle: f64 = folds.iter().map(|fold| fold.angle).sum();
+        assert_eq!(folds.len(), count, "{scale}");
+        assert!((angle - 47.0 * 7.5).abs() < 1e-9, "{scale}: {angle}");
+    }
     // Both rims have one letter each, on the block and on the wall.
     let letters = |sheet: &Sheet| {
         let runs = sheet.outlines.iter().flatten();

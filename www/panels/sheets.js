@@ -130,14 +130,10 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
   let isSolving = false;
   const waiting = waitingPanel(waitingElement, () => {
     if (isSolving) return cancelSolve();
-    setMissing('it was cancelled');
-    stop();
-    waiting.end();
-    preview.setAttribute('aria-busy', 'false');
+    leave('it was cancelled');
     status.textContent = SAVE_WORDS.cancelled;
     again.hidden = false;
     again.focus();
-    offer.renew();
   });
   const again = Object.assign(makeButton('', () => draw(), SHEET_WORDS.cut), { hidden: true });
   const fit = Object.assign(makeButton('', () => {
@@ -147,13 +143,17 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
   const about = make('div', '');
   const pageWarning = Object.assign(make('p', 'guess small'), { hidden: true });
   /** @type {Promise<Drawing>} */
-  let drawing;
-  /** Rejects the drawing: writers of files then report the reason. @param {string} reason */
-  const setMissing = (reason) => {
+  let drawing = new Promise(() => {});
+  /** Ends without a drawing: writers of files then report the reason. @param {string} reason */
+  const leave = (reason) => {
+    clearTimeout(inputTimer);
+    stop();
+    waiting.end();
     drawing = Promise.reject(new Error(reason));
     drawing.catch(() => {});
+    preview.setAttribute('aria-busy', 'false');
+    offer.renew();
   };
-  setMissing('');
   /** What was drawn is of other values than those of the fields, and is not saved any more. */
   const withdraw = () => {
     drawing = new Promise(() => {});
@@ -193,14 +193,10 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     if (isSolving) return keepOptions();
     showFields();
     if (fields.check()) {
-      stop();
-      waiting.end();
       // The fault stands at its field, and nothing is drawn any more.
-      setMissing('');
-      preview.setAttribute('aria-busy', 'false');
+      leave('');
       status.textContent = '';
-      clear();
-      return offer.renew();
+      return clear();
     }
     keepOptions();
     history.note(fields.values(.../** @type {FieldName[]} */ (Object.keys(lastOptions)), ...OF_MODEL));
@@ -247,10 +243,8 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     }
     preview.setAttribute('aria-busy', 'false');
     waiting.end();
-    if (!failed) return;
     // The reason stands beside the preview.
-    setMissing('');
-    offer.renew();
+    if (failed) leave('');
   };
   /** Cuts the fold at a place of the drawing, or folds the cut there; again, it is as before. @param {Drawing} finished @param {[number, number]} place */
   const toggleEdge = (finished, place) => {

@@ -12,7 +12,7 @@ export const STOP_REASONS = {
   rounding: 'the optimum was reached, up to rounding',
   maxIterations: 'the maximum number of iterations was reached',
   cancelled: 'cancelled; this is the best surface so far',
-  noNoise: 'there is no noise to remove',
+  noNoise: 'there is no noise that is worth removing',
   diverged: 'the iterations diverged; this is the best surface before',
 };
 
@@ -136,7 +136,7 @@ export const MESH_FIT_WORDS = {
   solved: 'Done: the whole mesh.',
   unsolved: 'The mesh cannot be solved as a whole.',
   hidden: (/** @type {string} */ share) => `From this side ${share} of the surface is hidden. “Whole mesh” solves all of it.`,
-  noNoise: 'The mesh has no noise, and is left as it is.',
+  noNoise: 'The mesh has no noise that is worth removing, and is left as it is.',
   flatFaces: 'No colour: all faces are flat, so that the surface bends at edges and corners only.',
   maxIterations: 'The solve stopped at the maximum number of iterations.',
   diverged: 'The iterations diverged. You see the best surface before.',
@@ -311,7 +311,7 @@ export function lambdaChoiceInWords({ report: { lambda, lambdaChoice }, pixelDis
 
 /** How λ of a whole mesh was chosen automatically. @param {MeshSurface['report']} report */
 export function meshLambdaChoiceInWords({ lambda, sigma, stopReason }) {
-  if (stopReason === 'noNoise') return 'The mesh has no noise, and is left as it is. The slider smooths it.';
+  if (stopReason === 'noNoise') return `${MESH_FIT_WORDS.noNoise} The slider smooths it.`;
   if (sigma === undefined) return `Too few vertices to measure their noise: λ = ${shortLambda(lambda)}.`;
   return `Chosen automatically. Noise: ${number(sigma)} along the normals, in the unit of the mesh.`;
 }

@@ -131,7 +131,7 @@ async function planned(task, mesh, signal) {
 function tell(task, { report }, mesh) {
   succeed(task.output, meshFitInWords(report));
   if (report.stopReason === 'noNoise') {
-    say(`${task.input} has no noise: it is left as it is (--lambda smooths it all the same)`);
+    say(`${task.input} has no noise that is worth removing: it is left as it is (a number for --lambda smooths it all the same)`);
   } else if (task.command !== 'fit') {
     const off = report.sigma === undefined ? '' : `; its vertices are off a smooth surface by ${Number(report.sigma.toPrecision(2))} in the file's unit`;
     say(`${task.input} has no exact faces, so that it is fitted first${off} (--as-is leaves its vertices where they are)`);

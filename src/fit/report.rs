@@ -24,7 +24,8 @@ pub enum StopReason {
     /// The progress callback, or [`Solver::cancel`](crate::Solver::cancel), asked to stop; in JavaScript the option `signal`
     /// with `onAbort: 'keep'`.
     Cancelled,
-    /// A mesh has no noise, and λ was to suit its noise: the surface is the mesh as it is.
+    /// A mesh has no noise, or less than a hundredth of the spacing of its vertices, and λ was to suit its noise: the surface is the mesh as it
+    /// is.
     NoNoise,
     /// ADMM's iterates diverged, and did so again with more accurate z-steps. The surface is the best one from before,
     /// and its dual bound holds.

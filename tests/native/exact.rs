@@ -247,6 +247,31 @@ fn a_fit_leaves_meshes_without_noise_as_they_are() {
             (StopReason::NoNoise, Some(0.0))
         );
     }
+    // A saddle over a sheared grid is no mesh that is known as exact, and far from no quadratic; noise of two hundredths is removed.
+    let saddle = |noise: f64| {
+        let mut random = Random::new(3);
+        let n = 40u32;
+        let place = |(i, j): (u32, u32)| {
+            let (x, y) = (f64::from(i) + 0.3 * f64::from(j), f64::from(j));
+            [x, y, 0.01 * x * y + noise * random.normal()]
+        };
+        let places = (0..n).flat_map(|j| (0..n).map(move |i| (i, j))).map(place);
+        let squares = (0..n - 1).flat_map(|j| (0..n - 1).map(move |i| j * n + i));
+        let triangles = squares.flat_map(|a| [[a, a + 1, a + n], [a + 1, a + n + 1, a + n]]);
+        Mesh::new(places.collect(), triangles.collect()).unwrap()
+    };
+    for (noise, reason) in [
+        (0.0, StopReason::NoNoise),
+        (0.005, StopReason::NoNoise),
+        (0.02, StopReason::Gap),
+    ] {
+        let mesh = saddle(noise);
+        assert!(noise == 0.0 || !mesh.is_exact());
+        let fitted = fit_mesh(&mesh, &MeshOptions::default()).unwrap();
+        assert_eq!(fitted.report().stop_reason, reason, "{noise}");
+        let is_left = fitted.mesh().positions() == mesh.positions();
+        assert_eq!(is_left, reason == StopReason::NoNoise, "{noise}");
+    }
     let options = MeshOptions::default().lambda(Lambda::Medium);
     let moved = fit_mesh(&block_with_hole(), &options).unwrap();
     assert_ne!(moved.mesh().positions(), block_with_hole().positions());

@@ -39,6 +39,10 @@ const EARLY_SOLVE_GAP: f64 = 0.02;
 /// Minimum standard deviation of noise that λ is chosen by, in spacings of vertices; smaller noise counts as none.
 const MIN_NOISE_SPACINGS: f64 = 1e-4;
 
+/// Minimum standard deviation, in spacings of vertices, of noise that is removed: less turns edges by under a degree, and exact surfaces of
+/// CAD are as far from the quadratics that noise is measured by (`benches/whole.md`, Meshes without noise).
+const MIN_REMOVED_NOISE_SPACINGS: f64 = 0.01;
+
 /// Maximum ratio of λ to the value that suits the noise at which there are crease passes; with a larger λ, noise would
 /// be taken for creases.
 const MAX_CREASE_LAMBDA_RATIO: f64 = 4.0;
@@ -100,8 +104,8 @@ pub struct MeshSolver {
 /// [`Energy::Huber`](crate::Energy::Huber). The energy is linearised about a smoothed base and solved as on a
 /// lattice, and once more about the result, where vertices on creases also move across their rays. Unless
 /// `crease_passes` is 0, borders and creases then become smooth curves. Last, self-intersections and folded triangles
-/// are removed by moving their vertices towards the mean of their neighbours. With [`Lambda::Auto`] a mesh without
-/// noise ([`Mesh::is_exact`]) is left as it is.
+/// are removed by moving their vertices towards the mean of their neighbours. With [`Lambda::Auto`] a mesh that has no noise
+/// ([`Mesh::is_exact`]), or less than a hundredth of the spacing of its vertices, is left as it is.
 ///
 /// # Errors
 /// [`Error::Topology`](crate::Error::Topology) if the mesh is no surface and cannot safely be made one, and
@@ -136,13 +140,17 @@ impl MeshSolver {
             confidence,
             held,
         };
-        let is_left = matches!(options.lambda, Lambda::Auto) && mesh.is_exact();
+        let is_auto = matches!(options.lambda, Lambda::Auto);
+        let is_exact = is_auto && mesh.is_exact();
         // Without noise there is no reach, and without reach slivers spoil the base.
         let MeshNoise {
             sigma,
             spacing,
             base_repeats,
-        } = MeshNoise::of(&given, is_left);
+        } = MeshNoise::of(&given, is_exact);
+        let is_small = sigma.is_some_and(|sigma| sigma < MIN_REMOVED_NOISE_SPACINGS * spacing);
+        // The noise of most vertices says nothing of those that are trusted less.
+        let is_left = is_exact || (is_auto && is_small && given.confidence.is_empty());
         let auto = sigma.map_or(Lambda::Medium.value(), |sigma| {
             LAMBDA_NOISE_PRODUCT / (sigma.max(MIN_NOISE_SPACINGS * spacing) * spacing)
         });
@@ -160,7 +168,8 @@ impl MeshSolver {
         if lambda > MAX_CREASE_LAMBDA_RATIO * auto {
             options.crease_passes.get_or_insert(0);
         }
-        let before = ShapeMeasures::new(topology, &given.noisy, &base);
+        let smooth = if is_left { &given.noisy } else { &base };
+        let before = ShapeMeasures::new(topology, &given.noisy, smooth);
         let (levels, reason) = if is_left {
             (None, None)
         } else {

@@ -569,13 +569,19 @@ export type FoldDirection = 'mountain' | 'valley';
 
 /** A fold line of a drawn sheet: a line along which the sheet is folded. */
 export interface FoldLine {
-  /** Number of the crease that the fold line follows, from 0, its index in `creases`. */
+  /**
+   * Number of the crease that the fold line follows, from 0, its index in `creases`; of lines of a bend that are less
+   * than a millimetre apart, one is drawn.
+   */
   crease: number;
   /** Numbers of the patches on either side of the fold line, from 0, the lower one first. */
   patches: [number, number];
   /** Whether the fold is a mountain or a valley fold, seen from above. */
   direction: FoldDirection;
-  /** Fold angle in degrees: 0 where the sheet stays flat. Folds of at most half a degree are not drawn. */
+  /**
+   * Fold angle in degrees: 0 where the sheet stays flat. Folds of at most half a degree are not drawn; a line of a bend
+   * also has the angle of those beside it that are not.
+   */
   angle: number;
   /** The smooth bend that the fold line is a part of. */
   bend?: FoldBend;
@@ -1408,7 +1414,8 @@ export interface SolveSeconds {
  * - `'maxIterations'`: The number of iterations reached the option `maxIterations`.
  * - `'cancelled'`: The progress callback, or `cancel`, asked to stop; in JavaScript the option `signal` with `onAbort:
  *   'keep'`.
- * - `'noNoise'`: A mesh has no noise, and λ was to suit its noise: the surface is the mesh as it is.
+ * - `'noNoise'`: A mesh has no noise, or less than a hundredth of the spacing of its vertices, and λ was to suit its
+ *   noise: the surface is the mesh as it is.
  * - `'diverged'`: ADMM's iterates diverged, and did so again with more accurate z-steps. The surface is the best one
  *   from before, and its dual bound holds.
  */

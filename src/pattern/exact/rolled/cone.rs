@@ -36,11 +36,8 @@ impl Surface for Cone {
     }
 
     fn coordinates(&self, place: &Place) -> [f64; 3] {
-        let off = place - self.centre;
-        let [x, y] = self.across.map(|axis| axis.dot(&off));
-        let high = self.along.dot(&off);
-        let beyond = x.hypot(y) - self.radius - self.slope * high;
-        [y.atan2(x), high, beyond / self.slope.hypot(1.0)]
+        let [x, y, high] = self.upright(place);
+        [y.atan2(x), high, self.off(place)]
     }
 
     fn angle(&self, direction: &Place) -> f64 {
@@ -102,31 +99,53 @@ impl Surface for Cone {
 }
 
 impl Cone {
+    /// Coordinates of a place across and along the axis.
+    fn upright(&self, place: &Place) -> [f64; 3] {
+        let off = place - self.centre;
+        let [first, second] = self.across;
+        [first, second, self.along].map(|axis| axis.dot(&off))
+    }
+
+    /// How far a place is off the surface, outwards.
+    pub(super) fn off(&self, place: &Place) -> f64 {
+        let [x, y, high] = self.upright(place);
+        let beyond = (x * x + y * y).sqrt() - self.radius - self.slope * high;
+        beyond / (1.0 + self.slope * self.slope).sqrt()
+    }
+
     /// Unit vector at an angle, away from the axis.
     fn outward(&self, angle: f64) -> Place {
         self.across[0] * angle.cos() + self.across[1] * angle.sin()
     }
 
-    /// The cone or cylinder nearest to points whose triangles have these normals, as long as their areas.
-    pub(super) fn fit(points: &[Place], normals: &[Place], is_conical: bool) -> Option<Cone> {
+    /// The cone or cylinder nearest to points with weights, whose triangles have these normals, as long as their areas.
+    pub(super) fn fit(
+        points: &[(Place, f64)],
+        normals: &[Place],
+        is_conical: bool,
+    ) -> Option<Cone> {
         let all: f64 = normals.iter().map(|n| n.norm()).sum();
         let usual = match is_conical {
             true => normals.iter().sum::<Place>() / all,
             false => Place::zeros(),
         };
         let mut along = least_normal(normals, usual);
-        let mean = points.iter().sum::<Place>() / points.len() as f64;
+        let weight: f64 = points.iter().map(|(_, weight)| weight).sum();
+        let mean = points.iter().map(|(p, weight)| p * *weight).sum::<Place>() / weight;
+        let extent = (points.iter()).fold(0.0, |most: f64, (p, _)| most.max((p - mean).norm()));
         let mut found: Option<Cone> = None;
         for _ in 0..MAX_FIT_STEPS {
             let first = along.cross(&Place::ith(along.iamin(), 1.0)).normalize();
             let across = [first, along.cross(&first)];
             let flat = |p: &Place| across.map(|axis| axis.dot(&(p - mean)));
+            let mut is_near = false;
             let (centre, radius, tilt, slope) = match &found {
                 None => {
                     // The circle x² + y² = 2 (a x + b y) + c, of a cone the one in the middle.
                     let mut circle = LeastSquares::<3>::new();
-                    for [x, y] in points.iter().map(flat) {
-                        circle.add(&[2.0 * x, 2.0 * y, 1.0].into(), [x * x + y * y], 1.0);
+                    for (p, weight) in points {
+                        let [x, y] = flat(p);
+                        circle.add(&[2.0 * x, 2.0 * y, 1.0].into(), [x * x + y * y], *weight);
                     }
                     let [a, b, c]: [f64; 3] = circle.solve()?.into();
                     ([a, b], (c + a * a + b * b).max(0.0).sqrt(), [0.0; 2], 0.0)
@@ -135,10 +154,10 @@ impl Cone {
                     // The slope of a cylinder stays 0.
                     let held = if is_conical { 0.0 } else { 1.0 };
                     let mut step = LeastSquares::<6>::with_ridge([0.0, 0.0, 0.0, 0.0, 0.0, held]);
-                    for p in points {
+                    for (p, weight) in points {
                         let off = p - last.centre;
                         let [x, y] = across.map(|axis| axis.dot(&off));
-                        let (far, high) = (x.hypot(y), along.dot(&(p - mean)));
+                        let (far, high) = ((x * x + y * y).sqrt(), along.dot(&(p - mean)));
                         if far == 0.0 {
                             continue;
                         }
@@ -146,9 +165,17 @@ impl Cone {
                         let tilt = [u * high + last.slope * x, v * high + last.slope * y];
                         let wide = (1.0 - held) * high;
                         let row = [u, v, 1.0, tilt[0], tilt[1], wide];
-                        step.add(&row.into(), [far - last.radius - last.slope * high], 1.0);
+                        step.add(
+                            &row.into(),
+                            [far - last.radius - last.slope * high],
+                            *weight,
+                        );
                     }
                     let [a, b, r, s, t, k]: [f64; 6] = step.solve()?.into();
+                    // The next step is below rounding.
+                    let moved =
+                        a.abs() + b.abs() + r.abs() + extent * (s.abs() + t.abs() + k.abs());
+                    is_near = moved <= f64::EPSILON.sqrt() * extent;
                     let [x, y] = across.map(|axis| axis.dot(&(last.centre - mean)));
                     ([x + a, y + b], last.radius + r, [s, t], last.slope + k)
                 }
@@ -165,6 +192,9 @@ impl Cone {
                 radius,
                 slope,
             });
+            if is_near {
+                break;
+            }
         }
         found.filter(|found| {
             found.radius.is_finite() && found.slope.is_finite() && found.along.norm() > 0.5

@@ -314,6 +314,21 @@ impl Search<'_> {
             .collect()
     }
 
+    /// The places of the corners of facets, each with the number of their triangles there.
+    fn weighted_points(&self, facets: &[u32]) -> Vec<(Place, f64)> {
+        let triangles = facets
+            .iter()
+            .flat_map(|facet| &self.triangles[*facet as usize]);
+        let mut corners: Vec<u32> = triangles
+            .flat_map(|t| self.solid.triangles[*t as usize])
+            .collect();
+        corners.sort_unstable();
+        let places = corners.chunk_by(|a, b| a == b);
+        places
+            .map(|same| (self.solid.places[same[0] as usize], same.len() as f64))
+            .collect()
+    }
+
     /// Whether a triangle of a facet joins places on opposite sides of a surface, as in a disc that ends a tube: its corners are on the
     /// surface as well.
     fn reaches_across(&self, surface: &dyn Surface, facet: u32) -> bool {
@@ -332,24 +347,20 @@ impl Search<'_> {
     /// The surface that some facets lie on, and all facets on it around them.
     fn surface(&self, mut facets: Vec<u32>, is_conical: bool) -> Option<(Cone, Vec<u32>)> {
         loop {
-            let points = self.points(&facets);
+            let points = self.weighted_points(&facets);
             let normal = |facet: &u32| {
                 self.solid.normals[*facet as usize] * self.solid.areas[*facet as usize]
             };
             let normals: Vec<Place> = facets.iter().map(normal).collect();
             let surface = Cone::fit(&points, &normals, is_conical)?;
-            let is_on = |points: &[Place]| {
-                points
-                    .iter()
-                    .all(|p| surface.coordinates(p)[2].abs() <= self.near)
-            };
-            if !is_on(&points) {
+            let is_on = |p: &Place| surface.off(p).abs() <= self.near;
+            if !points.iter().all(|(p, _)| is_on(p)) {
                 return None;
             }
             facets.retain(|facet| !self.reaches_across(&surface, *facet));
             let first = *facets.first()?;
             let all = grow(&self.around, first, |_, facet| {
-                is_on(&self.points(&[facet])) && !self.reaches_across(&surface, facet)
+                self.points(&[facet]).iter().all(is_on) && !self.reaches_across(&surface, facet)
             });
             if all.len() <= facets.len() {
                 return Some((surface, facets));

@@ -20,9 +20,9 @@ const MAX_FOLD_BOW_SPACINGS: f64 = 0.5;
 /// Largest distance between a corner of the outline and the end of a fold there, as a share of the length of the fold that is bent.
 const END_ROUNDING: f64 = 1e-6;
 
-/// Largest distance of the pieces of a fold from one line, as a share of the length of one, and largest difference of their angles, as a
-/// share. No table chose it: they are equal up to rounding.
-const PIECE_ROUNDING: f64 = 1e-3;
+/// Largest distance of the pieces of a fold from one line, as a share of the length of one or of the distance of a bend's lines, and largest
+/// difference of their angles and of those of parallel lines, as a share. No table chose it: they are equal up to rounding.
+pub(super) const PIECE_ROUNDING: f64 = 1e-3;
 
 /// Applies the bend allowance to all folds of a sheet; an error if a fold is not a straight line from edge to edge.
 pub(super) fn apply_bend_allowance(

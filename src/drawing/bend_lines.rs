@@ -1,11 +1,7 @@
 //! The lines along which a smooth bend of card is scored.
 
-use super::bend::tips;
+use super::bend::{PIECE_ROUNDING, tips};
 use crate::pattern::{Bend, Fold};
-
-/// Largest sine of the angle between lines that are parallel, and largest distance between the pieces of a line that a hole divides, as a
-/// share of the mean distance of the lines. No table chose it: they are equal up to rounding.
-const LINE_ROUNDING: f64 = 1e-3;
 
 /// Leaves of the parallel lines of each smooth bend so many that they are a distance apart in the mean, or as far as they were: of a group
 /// of neighbours the one in its middle, with the angles of all. The lines of a cone stay.
@@ -18,7 +14,7 @@ pub(super) fn thin_lines(folds: &mut Vec<Fold>, min_distance: f64) {
             continue;
         }
         let own = (first..folds.len()).filter(|k| bend_of(&folds[*k]) == bend);
-        let own = own.collect();
+        let own: Vec<usize> = own.collect();
         thin_bend(folds, own, min_distance, &mut is_left);
     }
     let mut is_left = is_left.into_iter();
@@ -32,23 +28,21 @@ fn thin_bend(folds: &mut [Fold], mut own: Vec<usize>, min_distance: f64, is_left
     let is_parallel = |k: &usize| {
         let [from, to] = tips(&folds[*k]);
         let heading = along.conj() * (to - from);
-        heading.im.abs() <= LINE_ROUNDING * heading.norm()
+        heading.im.abs() <= PIECE_ROUNDING * heading.norm()
     };
     if !own.iter().all(is_parallel) {
         return;
     }
-    let places: Vec<f64> = (folds.iter())
-        .map(|fold| (along.conj() * (tips(fold)[0] - from)).im)
-        .collect();
-    own.sort_unstable_by(|a, b| places[*a].total_cmp(&places[*b]));
-    let width = places[own[own.len() - 1]] - places[own[0]];
-    let rounding = LINE_ROUNDING * width / own.len() as f64;
+    let place = |k: usize| (along.conj() * (tips(&folds[k])[0] - from)).im;
+    own.sort_unstable_by(|a, b| place(*a).total_cmp(&place(*b)));
+    let width = place(own[own.len() - 1]) - place(own[0]);
+    let rounding = PIECE_ROUNDING * width / own.len() as f64;
     let is_piece = |a: &usize, b: &usize| {
-        folds[*a].seam.crease == folds[*b].seam.crease || places[*b] - places[*a] <= rounding
+        folds[*a].seam.crease == folds[*b].seam.crease || place(*b) - place(*a) <= rounding
     };
     let lines: Vec<&[usize]> = own.chunk_by(is_piece).collect();
     // The whole multiple of the mean distance that is wide enough.
-    let joined = (min_distance * (lines.len() - 1) as f64 / width - LINE_ROUNDING).ceil();
+    let joined = (min_distance * (lines.len() - 1) as f64 / width - PIECE_ROUNDING).ceil();
     let count = (lines.len() / (joined.max(1.0) as usize)).max(1);
     let ends = |part: usize| part * lines.len() / count;
     for part in 0..count {

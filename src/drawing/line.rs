@@ -11,6 +11,7 @@ pub(super) const FLATTENING_TOLERANCE_MM: f64 = 0.02;
 /// A line segment that tabs and texts must not touch.
 pub(super) type Wall = [[f64; 2]; 2];
 
+/// The segments of a polyline.
 pub(super) fn walls_of(line: &[[f64; 2]]) -> Vec<Wall> {
     line.windows(2).map(|p| [p[0], p[1]]).collect()
 }

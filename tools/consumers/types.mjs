@@ -23,12 +23,13 @@ const strict = {
   strict: true, exactOptionalPropertyTypes: true, noUncheckedIndexedAccess: true, noEmit: true, skipLibCheck: false, target: 'es2022',
 };
 
-/** Each way of finding modules, with one library and the other in turn: neither depends on the other. @returns {{ name: string, compilerOptions: object }[]} */
+/** Each way of finding modules with each library. @returns {{ name: string, compilerOptions: object }[]} */
 export function configurations() {
-  return resolutions.map((resolution, i) => {
-    const { name, ...library } = libraries[i % libraries.length];
-    return { name: `${resolution.moduleResolution} with ${name}`, compilerOptions: { ...strict, ...library, ...resolution } };
-  });
+  return resolutions.flatMap((resolution) =>
+    libraries.map(({ name, ...library }) => ({
+      name: `${resolution.moduleResolution} with ${name}`,
+      compilerOptions: { ...strict, ...library, ...resolution },
+    })));
 }
 
 /**

@@ -154,7 +154,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     preview.setAttribute('aria-busy', 'false');
     offer.renew();
   };
-  /** What was drawn is of other values than those of the fields, and is not saved any more. */
+  /** Withdraws the drawing, which is of other values than those of the fields: it is not saved any more. */
   const withdraw = () => {
     drawing = new Promise(() => {});
     preview.setAttribute('aria-busy', 'true');
@@ -241,10 +241,10 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
       }
       failed = true;
     }
+    // The reason stands beside the preview.
+    if (failed) return leave('');
     preview.setAttribute('aria-busy', 'false');
     waiting.end();
-    // The reason stands beside the preview.
-    if (failed) leave('');
   };
   /** Cuts the fold at a place of the drawing, or folds the cut there; again, it is as before. @param {Drawing} finished @param {[number, number]} place */
   const toggleEdge = (finished, place) => {
@@ -270,7 +270,8 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     // The dialog may be closed by then.
     if (options.isConnected) offerAgain();
   });
-  let [inputTimer, zoom] = [0, 1];
+  let inputTimer = 0;
+  let zoom = 1;
   const legend = make('p', 'muted small');
   const enlarge = makeButton('', () => {
     zoom = zoom === 1 ? 3 : 1;

@@ -37,7 +37,7 @@ impl Surface for Cone {
 
     fn coordinates(&self, place: &Place) -> [f64; 3] {
         let [x, y, high] = self.upright(place);
-        [y.atan2(x), high, self.off(place)]
+        [y.atan2(x), high, self.beyond([x, y, high])]
     }
 
     fn angle(&self, direction: &Place) -> f64 {
@@ -108,7 +108,10 @@ impl Cone {
 
     /// How far a place is off the surface, outwards.
     pub(super) fn off(&self, place: &Place) -> f64 {
-        let [x, y, high] = self.upright(place);
+        self.beyond(self.upright(place))
+    }
+
+    fn beyond(&self, [x, y, high]: [f64; 3]) -> f64 {
         let beyond = (x * x + y * y).sqrt() - self.radius - self.slope * high;
         beyond / (1.0 + self.slope * self.slope).sqrt()
     }
@@ -137,14 +140,13 @@ impl Cone {
         for _ in 0..MAX_FIT_STEPS {
             let first = along.cross(&Place::ith(along.iamin(), 1.0)).normalize();
             let across = [first, along.cross(&first)];
-            let flat = |p: &Place| across.map(|axis| axis.dot(&(p - mean)));
             let mut is_near = false;
             let (centre, radius, tilt, slope) = match &found {
                 None => {
                     // The circle x² + y² = 2 (a x + b y) + c, of a cone the one in the middle.
                     let mut circle = LeastSquares::<3>::new();
                     for (p, weight) in points {
-                        let [x, y] = flat(p);
+                        let [x, y] = across.map(|axis| axis.dot(&(p - mean)));
                         circle.add(&[2.0 * x, 2.0 * y, 1.0].into(), [x * x + y * y], *weight);
                     }
                     let [a, b, c]: [f64; 3] = circle.solve()?.into();

@@ -305,23 +305,22 @@ impl Search<'_> {
         triangles
     }
 
-    fn points(&self, facets: &[u32]) -> Vec<Place> {
+    /// The vertices at the corners of the triangles of facets.
+    fn corners(&self, facets: &[u32]) -> impl Iterator<Item = u32> {
         let triangles = facets
             .iter()
             .flat_map(|facet| &self.triangles[*facet as usize]);
-        triangles
-            .flat_map(|t| self.solid.corners(*t as usize))
-            .collect()
+        triangles.flat_map(|t| self.solid.triangles[*t as usize])
+    }
+
+    fn points(&self, facets: &[u32]) -> Vec<Place> {
+        let corners = self.corners(facets);
+        corners.map(|v| self.solid.places[v as usize]).collect()
     }
 
     /// The places of the corners of facets, each with the number of their triangles there.
     fn weighted_points(&self, facets: &[u32]) -> Vec<(Place, f64)> {
-        let triangles = facets
-            .iter()
-            .flat_map(|facet| &self.triangles[*facet as usize]);
-        let mut corners: Vec<u32> = triangles
-            .flat_map(|t| self.solid.triangles[*t as usize])
-            .collect();
+        let mut corners: Vec<u32> = self.corners(facets).collect();
         corners.sort_unstable();
         let places = corners.chunk_by(|a, b| a == b);
         places

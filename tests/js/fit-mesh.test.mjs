@@ -154,8 +154,11 @@ test('the command fits whole meshes, and says so where a view would lose much', 
   assert.equal(report.vertices, noisy.positions.length / 3);
   const found = direct.readMesh(await readFile(join(folder, 'whole.ply')));
   assert.ok(off(found.positions) < 0.4 * sigma);
-  assert.equal((await run(folder, ['fit', 'scan.ply', '--unit', 'mm', '-o', 'whole.stl', '--surface'])).stderr, '');
-  assert.equal(direct.readMesh(await readFile(join(folder, 'whole.stl'))).triangles.length, noisy.triangles.length);
+  for (const output of ['whole.obj', 'whole.stl', 'whole.glb']) {
+    assert.equal((await run(folder, ['fit', 'scan.ply', '--unit', 'mm', '-o', output, '--surface'])).stderr, '');
+    const other = direct.readMesh(await readFile(join(folder, output)));
+    assert.equal(other.triangles.length, noisy.triangles.length, output);
+  }
   const seen = await run(folder, ['fit', 'scan.ply', '-o', 'seen.ply', '--view', '-x']);
   assert.equal(seen.status, 0);
   const [, share] = /(\d+) % of the area of scan\.ply is not seen/.exec(seen.stderr) ?? [];

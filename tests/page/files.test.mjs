@@ -274,3 +274,16 @@ sharedTest('what cannot be read gets a message each, and the previous result sta
     assert.ok(await page.locator('#end-file').isEnabled(), what);
   }
 });
+
+sharedTest('the bar of writing does not move the formats away from under the pointer', async (page) => {
+  await page.locator('#end-file').click();
+  await page.locator('#save-dialog[open]').waitFor();
+  const tops = await page.locator('#save-formats').evaluate((formats) => {
+    const bar = /** @type {HTMLElement} */ (document.getElementById('writing'));
+    return [true, false].map((hidden) => {
+      bar.hidden = hidden;
+      return formats.getBoundingClientRect().top;
+    });
+  });
+  assert.equal(tops[0], tops[1]);
+});

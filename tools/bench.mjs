@@ -1,10 +1,9 @@
 /**
  * `npm run bench`: how fast it is, always as ratios of things measured in the same run;
  * `npm run bench -- NAME...` makes some of the tables, `--peers` those with other programs, `--quick` smaller ones;
- * `--write` writes the document of all tables, and `--input FILE` adds a file of your own.
+ * `--write` writes the document of all tables.
  */
-import { mkdtemp, rm, writeFile } from 'node:fs/promises';
-import { tmpdir } from 'node:os';
+import { writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { parse } from './bench/arguments.mjs';
 import { Bench, buildNative } from './bench/bench.mjs';
@@ -13,25 +12,23 @@ import { document, documentTables, tables } from './bench/tables.mjs';
 import { rule } from './bench/task.mjs';
 import { asMarkdown, asText } from './bench/text.mjs';
 import { build } from './build.mjs';
+import { inTemporaryFolder } from './util/folders.mjs';
 import { root } from './util/paths.mjs';
 import { main } from './util/problem.mjs';
 
 await main(async () => {
-  const { quick, names, write, file } = parse(process.argv.slice(2));
+  const { quick, names, write } = parse(process.argv.slice(2));
   await build();
   await buildNative();
 
   const start = performance.now();
   const where = await machine();
-  const folder = await mkdtemp(join(tmpdir(), 'developable-bench-'));
   /** @type {Record<string, import('./bench/text.mjs').Table>} */
   const made = {};
-  try {
-    const bench = new Bench({ folder, quick, file });
+  await inTemporaryFolder(async (folder) => {
+    const bench = new Bench(folder, quick);
     for (const name of names) made[name] = await tables[name](bench);
-  } finally {
-    await rm(folder, { recursive: true, force: true });
-  }
+  });
 
   for (const table of Object.values(made)) console.log(asText(table));
   for (const { summary } of Object.values(made)) if (summary) console.log(summary);

@@ -8,10 +8,13 @@ import { join } from 'node:path';
 import { browser } from './setup/browser.mjs';
 import { root, pkg } from './util/paths.mjs';
 import { describe, main, Problem } from './util/problem.mjs';
-import { run } from './util/process.mjs';
+import { succeed } from './util/process.mjs';
 import { trials } from './consumers/trials.mjs';
 
 const folder = join(root, 'target/consumers');
+
+/** Time that a part of the installation may take. */
+const MAX_SECONDS = 600;
 
 await main(async () => {
   const words = process.argv.slice(2);
@@ -46,28 +49,17 @@ async function install() {
   if (lock !== installed) {
     console.log('- The tools, into target/consumers (about 1 minute, 700 MB)');
     // Not `npm ci`, which insists on the programs for all other systems, too, and not all mirrors have them.
-    await must('npm', ['install', '--ignore-scripts', '--no-audit', '--no-fund'], folder);
+    await succeed('npm', ['install', '--ignore-scripts', '--no-audit', '--no-fund'], { cwd: folder, limit: MAX_SECONDS });
     // Puts its program, which npm has brought, in its place.
-    await must(process.execPath, ['install.js'], join(folder, 'node_modules/bun'));
+    await succeed(process.execPath, ['install.js'], { cwd: join(folder, 'node_modules/bun'), limit: MAX_SECONDS });
     await writeFile(join(folder, 'node_modules/.installed'), lock);
   }
-  const { output } = await must('npm', ['pack', '--json', '--pack-destination', folder], pkg);
+  const output = await succeed('npm', ['pack', '--json', '--pack-destination', folder], { cwd: pkg, limit: MAX_SECONDS });
   const [{ filename }] = JSON.parse(output.slice(output.indexOf('[')));
   const place = join(folder, 'node_modules/developable');
   await rm(place, { recursive: true, force: true });
   await mkdir(place);
-  await must('tar', ['-xzf', join(folder, filename), '--strip-components=1', '-C', place], folder);
-}
-
-/**
- * @param {string} command
- * @param {string[]} args
- * @param {string} cwd
- */
-async function must(command, args, cwd) {
-  const result = await run(command, args, { cwd, limit: 600 });
-  if (!result.ok) throw new Problem(`${command} ${args[0]}: ${result.failure}\n${result.output.slice(0, 2000)}`);
-  return result;
+  await succeed('tar', ['-xzf', join(folder, filename), '--strip-components=1', '-C', place]);
 }
 
 /** @param {string} tool a package, or nothing for Node itself */

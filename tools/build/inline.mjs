@@ -2,25 +2,18 @@
  * Copies of the worker and the wasm as JavaScript, gzipped and in base64: for bundlers that would leave
  * the files themselves behind (see pkg/copies.js).
  */
-import { mkdtemp, chmod, readFile, rename, rm, writeFile } from 'node:fs/promises';
+import { readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
+import { replaceFolder } from '../util/folders.mjs';
 import { pkg, pkgInline, pkgWasm } from '../util/paths.mjs';
-
-const names = ['solver', 'files', 'images', 'meshes', 'fitmesh', 'unroll', 'patterns'];
+import { names } from './wasm.mjs';
 
 export async function buildInline() {
-  const draft = await mkdtemp(join(pkg, 'inline-draft-'));
-  try {
+  await replaceFolder(pkgInline, async (draft) => {
     await copy(draft, 'worker', Buffer.from(await bundledWorker()));
     for (const name of names) await copy(draft, name, await readFile(join(pkgWasm, `${name}_bg.wasm`)));
-    // `mkdtemp` lets nobody else in.
-    await chmod(draft, 0o755);
-    await rm(pkgInline, { recursive: true, force: true });
-    await rename(draft, pkgInline);
-  } finally {
-    await rm(draft, { recursive: true, force: true });
-  }
+  });
 }
 
 /**

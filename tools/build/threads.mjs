@@ -1,10 +1,11 @@
 /** The solver's wasm for several threads: the same crate, built for atomic operations and a shared memory. */
 import { createHash } from 'node:crypto';
 import { existsSync } from 'node:fs';
-import { chmod, mkdtemp, readFile, readdir, rename, rm, writeFile } from 'node:fs/promises';
+import { readFile, readdir, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { target } from '../setup/wasm-target.mjs';
-import { pkg, pkgThreads, root } from '../util/paths.mjs';
+import { replaceFolder } from '../util/folders.mjs';
+import { pkgThreads, root } from '../util/paths.mjs';
 import { bindgenArguments, checkSize, moduleFile, must, wasmOpt } from './wasm.mjs';
 import { alignStorage } from './tls.mjs';
 
@@ -57,7 +58,7 @@ export async function buildThreads({ env, bindgen }) {
     alignStorage(bytes);
     const aligned = join(targetFolder, 'aligned.wasm');
     await writeFile(aligned, bytes);
-    await replace(async (folder) => {
+    await replaceFolder(pkgThreads, async (folder) => {
       await must(bindgen, bindgenArguments(folder, 'threads', aligned), process.env);
       const packed = join(folder, 'threads_bg.wasm');
       await must(process.execPath, [wasmOpt, '-O1', packed, '-o', packed], process.env);
@@ -73,27 +74,10 @@ export async function leaveThreadsOut() {
   const body = "{\n  throw new Error('the wasm for several threads was not built');\n}\n";
   // A bundler warns of an import that is missing.
   const text = IMPORTED.map((name) => `export function ${name}() ${body}`).join('');
-  await replace(async (folder) => {
+  await replaceFolder(pkgThreads, async (folder) => {
     await writeFile(join(folder, 'threads.js'), text);
     await writeFile(join(folder, 'threads.d.ts'), TYPES);
   });
-}
-
-/**
- * Writes the package's folder anew, beside the old one, so that who reads there finds one or the other.
- * @param {(folder: string) => Promise<void>} write
- */
-async function replace(write) {
-  const draft = await mkdtemp(join(pkg, 'threads-draft-'));
-  try {
-    await write(draft);
-    // `mkdtemp` lets nobody else in.
-    await chmod(draft, 0o755);
-    await rm(pkgThreads, { recursive: true, force: true });
-    await rename(draft, pkgThreads);
-  } finally {
-    await rm(draft, { recursive: true, force: true });
-  }
 }
 
 /** @param {string} origin */

@@ -1,14 +1,15 @@
 /** Rust to wasm: cargo, wasm-bindgen, wasm-opt, and a look at the size. */
 import { createHash } from 'node:crypto';
 import { existsSync } from 'node:fs';
-import { chmod, copyFile, mkdtemp, readFile, rename, rm, writeFile } from 'node:fs/promises';
+import { copyFile, readFile, writeFile } from 'node:fs/promises';
 import { availableParallelism } from 'node:os';
 import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { target } from '../setup/wasm-target.mjs';
-import { pkg, pkgWasm, root } from '../util/paths.mjs';
+import { replaceFolder } from '../util/folders.mjs';
+import { pkgWasm, root } from '../util/paths.mjs';
 import { Problem } from '../util/problem.mjs';
-import { run } from '../util/process.mjs';
+import { run, succeed } from '../util/process.mjs';
 
 /** @typedef {import('../util/process.mjs').Env} Env */
 
@@ -77,20 +78,13 @@ export async function packWasm({ env, bindgen }, kind = 'release') {
     return { name, module, origin, current: await isCurrent(name, origin) };
   }));
   if (!modules.every(({ current }) => current)) {
-    const draft = await mkdtemp(join(pkg, 'wasm-draft-'));
-    try {
+    await replaceFolder(pkgWasm, async (draft) => {
       const pending = modules[Symbol.iterator]();
       // As many at a time as there are cores: wasm-opt has but one thread.
       await Promise.all(Array.from({ length: availableParallelism() }, async () => {
         for (const module of pending) await pack(draft, module, bindgen, kind);
       }));
-      // `mkdtemp` lets nobody else in.
-      await chmod(draft, 0o755);
-      await rm(pkgWasm, { recursive: true, force: true });
-      await rename(draft, pkgWasm);
-    } finally {
-      await rm(draft, { recursive: true, force: true });
-    }
+    });
   }
   if (kind === 'release') for (const { name, limit } of files) await checkSize(pkgWasm, name, limit);
 }
@@ -198,7 +192,4 @@ export async function checkSize(folder, name, limit) {
  * @param {string[]} args
  * @param {Env} env
  */
-export async function must(command, args, env) {
-  const { ok, failure } = await run(command, args, { env, cwd: root, show: true });
-  if (!ok) throw new Problem(`The build stopped (${failure}): see what ${command} says above.`);
-}
+export const must = (command, args, env) => succeed(command, args, { env, cwd: root, show: true });

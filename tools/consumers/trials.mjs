@@ -1,9 +1,9 @@
 /** What the package is tried with. Each trial builds the app of tests/consumers as a user would, and runs it. */
-import { cp, mkdir, mkdtemp, readdir, readFile, rm, writeFile } from 'node:fs/promises';
-import { tmpdir } from 'node:os';
+import { cp, mkdir, readdir, readFile, rm, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
+import { inTemporaryFolder } from '../util/folders.mjs';
 import { Problem } from '../util/problem.mjs';
-import { run } from '../util/process.mjs';
+import { succeed } from '../util/process.mjs';
 import { serve } from '../serve.mjs';
 import { browse, served, strict, withBlobs, withInline, withOrigin } from './browse.mjs';
 import { typesWith } from './types.mjs';
@@ -162,16 +162,13 @@ async function hosted({ folder, chrome }) {
 }
 
 /** Run where no node_modules are. @param {Context} context */
-async function esbuildForNode({ folder }) {
-  const out = await mkdtemp(join(tmpdir(), 'developable-'));
-  try {
+function esbuildForNode({ folder }) {
+  return inTemporaryFolder(async (out) => {
     const place = join(out, 'console.mjs');
     const options = ['--bundle', '--platform=node', '--format=esm', `--outfile=${place}`];
     await must(['node_modules/.bin/esbuild', 'app/console.js', ...options], folder);
     check(JSON.parse(await must([process.execPath, place], out)));
-  } finally {
-    await rm(out, { recursive: true, force: true });
-  }
+  });
 }
 
 /** @param {string[]} options */
@@ -265,8 +262,4 @@ async function size(out) {
  * @param {string[]} command
  * @param {string} cwd
  */
-async function must([program, ...args], cwd) {
-  const { ok, output, failure } = await run(program, args, { cwd, limit: 300 });
-  if (!ok) throw new Problem(`${failure}\n${output.slice(-3000)}`);
-  return output;
-}
+const must = ([program, ...args], cwd) => succeed(program, args, { cwd, limit: 300 });

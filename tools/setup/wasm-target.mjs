@@ -1,9 +1,9 @@
 /** A Rust that builds for wasm32-unknown-unknown: the one that is there, rustup's, or Debian's. */
-import { mkdtemp, rm, writeFile } from 'node:fs/promises';
-import { tmpdir } from 'node:os';
+import { writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { wasm, withPath, without } from '../util/env.mjs';
+import { inTemporaryFolder } from '../util/folders.mjs';
 import { root } from '../util/paths.mjs';
 import { Problem } from '../util/problem.mjs';
 import { run } from '../util/process.mjs';
@@ -41,18 +41,13 @@ export async function wasmTarget() {
  * The real test: a small library that uses std gets linked.
  * @param {Env} env
  */
-async function links(env) {
-  const folder = await mkdtemp(join(tmpdir(), 'developable-'));
-  try {
-    const source = join(folder, 'probe.rs');
-    await writeFile(source, '#[unsafe(no_mangle)] pub extern "C" fn f(n: usize) -> usize { vec![n; n].len() }');
-    const args = ['--edition=2024', '--target', target, '--crate-type', 'cdylib', '-O', source];
-    const { ok } = await run('rustc', [...args, '-o', join(folder, 'probe.wasm')], { env, cwd: root, limit: 600 });
-    return ok;
-  } finally {
-    await rm(folder, { recursive: true, force: true });
-  }
-}
+const links = (env) => inTemporaryFolder(async (folder) => {
+  const source = join(folder, 'probe.rs');
+  await writeFile(source, '#[unsafe(no_mangle)] pub extern "C" fn f(n: usize) -> usize { vec![n; n].len() }');
+  const args = ['--edition=2024', '--target', target, '--crate-type', 'cdylib', '-O', source];
+  const { ok } = await run('rustc', [...args, '-o', join(folder, 'probe.wasm')], { env, cwd: root, limit: 600 });
+  return ok;
+});
 
 /**
  * @param {string} folder

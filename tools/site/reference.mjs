@@ -4,7 +4,7 @@ import { join } from 'node:path';
 import { native } from '../util/env.mjs';
 import { pkg, root } from '../util/paths.mjs';
 import { Problem } from '../util/problem.mjs';
-import { run } from '../util/process.mjs';
+import { succeed } from '../util/process.mjs';
 
 /**
  * Writes `reference/package` and `reference/rust`.
@@ -19,20 +19,14 @@ export async function writeReferences(folder) {
 async function writePackage(folder) {
   const program = join(root, 'tools/reference/node_modules/typedoc/bin/typedoc');
   const entries = ['index', 'direct', 'sync'].map((name) => join(pkg, `${name}.d.ts`));
-  await succeed(process.execPath, [program, '--options', join(root, 'tools/reference/typedoc.json'), '--out', folder, ...entries]);
+  await succeed(process.execPath, [program, '--options', join(root, 'tools/reference/typedoc.json'), '--out', folder, ...entries], { cwd: root });
 }
 
 /** @param {string} folder */
 async function writeCrate(folder) {
-  await succeed('cargo', ['doc', '--no-deps', '--lib'], native);
+  await succeed('cargo', ['doc', '--no-deps', '--lib'], { env: native, cwd: root });
   const made = join(root, 'target/doc');
   if (!(await readdir(made)).includes('developable')) throw new Problem(`cargo doc has left nothing in ${made}.`);
   // Without the lock file of cargo.
   await cp(made, folder, { recursive: true, filter: (path) => !path.endsWith('.lock') });
-}
-
-/** @param {string} program @param {string[]} args @param {NodeJS.ProcessEnv} [env] */
-async function succeed(program, args, env = process.env) {
-  const { ok, output } = await run(program, args, { env, cwd: root });
-  if (!ok) throw new Problem(`${program} ${args[0]} has failed: ${output}`);
 }

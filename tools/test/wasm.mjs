@@ -1,11 +1,11 @@
 /** wasm-bindgen's tests: those in tests/NAME.rs, compiled to wasm, run in Node and in a browser. */
-import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
-import { tmpdir } from 'node:os';
+import { readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { stripVTControlCharacters } from 'node:util';
 import { crates } from '../build/wasm.mjs';
 import { target } from '../setup/wasm-target.mjs';
 import { without } from '../util/env.mjs';
+import { inTemporaryFolder } from '../util/folders.mjs';
 import { root } from '../util/paths.mjs';
 import { Problem } from '../util/problem.mjs';
 import { Skip, check } from './step.mjs';
@@ -17,7 +17,7 @@ import { Skip, check } from './step.mjs';
  * @param {string} name
  * @returns {(context: Context) => Promise<void>}
  */
-export const inNode = (name) => ({ env }) => inFolder(async (folder) => {
+export const inNode = (name) => ({ env }) => inTemporaryFolder(async (folder) => {
   // The runner writes CommonJS below its temporary folder; a package.json above that may say otherwise.
   await writeFile(join(folder, 'package.json'), '{ "type": "commonjs" }\n');
   await cargoTest(name, { ...env, TMPDIR: folder, TEMP: folder, TMP: folder });
@@ -32,7 +32,7 @@ export const inBrowser = (name) => async ({ env, browser: { chrome, driver } }) 
   if (!driver) throw new Skip('no chromedriver was found (CHROMEDRIVER can name one)');
   const capabilities = JSON.parse(await readFile(join(root, 'tests/wasm/webdriver.json'), 'utf8'));
   capabilities['goog:chromeOptions'].binary = chrome;
-  await inFolder(async (folder) => {
+  await inTemporaryFolder(async (folder) => {
     const file = join(folder, 'webdriver.json');
     await writeFile(file, JSON.stringify(capabilities));
     // The runner would prefer another browser's driver, or one that is running elsewhere.
@@ -40,19 +40,6 @@ export const inBrowser = (name) => async ({ env, browser: { chrome, driver } }) 
     await cargoTest(name, { ...own, CHROMEDRIVER: driver, WASM_BINDGEN_TEST_WEBDRIVER_JSON: file });
   });
 };
-
-/**
- * Does something with a temporary folder.
- * @param {(folder: string) => Promise<void>} work
- */
-async function inFolder(work) {
-  const folder = await mkdtemp(join(tmpdir(), 'developable-'));
-  try {
-    await work(folder);
-  } finally {
-    await rm(folder, { recursive: true, force: true });
-  }
-}
 
 /**
  * @param {string} name

@@ -1,6 +1,7 @@
 /** Running other programs: time limits, captured output, and nothing left behind. */
 import { AsyncLocalStorage } from 'node:async_hooks';
 import { spawn } from 'node:child_process';
+import { Problem } from './problem.mjs';
 
 /** @typedef {Record<string, string | undefined>} Env */
 
@@ -106,4 +107,16 @@ export function run(command, args, { env = process.env, cwd, limit, show = false
       else finish(signal ? `ended by ${signal}` : `exit status ${status}`);
     });
   });
+}
+
+/**
+ * Runs a program that has to succeed; gives what it printed.
+ * @param {string} command
+ * @param {readonly string[]} args
+ * @param {Options} [options]
+ */
+export async function succeed(command, args, options = {}) {
+  const { ok, output, failure } = await run(command, args, options);
+  if (ok) return output;
+  throw new Problem(`${[command, ...args].join(' ').slice(0, 70)}: ${failure}${options.show ? ', see above' : `\n${output.slice(-3000)}`}`);
 }

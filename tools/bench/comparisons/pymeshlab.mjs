@@ -1,8 +1,8 @@
 /** Noisy scenes smoothed by the filters of pymeshlab, beside this library. */
-import { mkdtemp, readFile, rm } from 'node:fs/promises';
-import { tmpdir } from 'node:os';
+import { readFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { native } from '../../util/env.mjs';
+import { inTemporaryFolder } from '../../util/folders.mjs';
 import { cache, root } from '../../util/paths.mjs';
 import { Problem } from '../../util/problem.mjs';
 import { run } from '../../util/process.mjs';
@@ -26,8 +26,7 @@ const MAX_SECONDS = 45 * 60;
 /** @param {import('../bench.mjs').Bench} bench */
 export async function pymeshlab({ quick }) {
   const python = await environment();
-  const folder = await mkdtemp(join(tmpdir(), 'developable-pymeshlab-'));
-  try {
+  return inTemporaryFolder(async (folder) => {
     await done('cargo', ['run', '--release', '--locked', '--example', 'scenes', '--', 'meshes', folder]);
     const scenes = quick ? ['--scenes', String(QUICK_SCENES)] : [];
     const file = join(folder, 'summary.json');
@@ -46,9 +45,7 @@ export async function pymeshlab({ quick }) {
         name, ...[normals.mean, normals.largest, distances.mean, distances.largest, seconds, ours].map(digits),
       ]),
     };
-  } finally {
-    await rm(folder, { recursive: true, force: true });
-  }
+  });
 }
 
 /** The Python of an environment that has pymeshlab; made once. */

@@ -122,7 +122,7 @@ export class DevelopableWorker {
    * @returns {Promise<import('./types.js').Painted<F>>}
    */
   async paint(input, picture, given) {
-    const own = reading('INPUT', 'the input', () => ({ ...input }));
+    const own = reading('INPUT', 'the input', () => /** @type {typeof input} */ (isRecord(input) ? { ...input } : {}));
     const { extent, camera } = optionsOf('paint', given);
     const field = handedOver(asLattice(own));
     const found = asPicture(isBlob(picture) ? await copyOfFile(picture) : picture);

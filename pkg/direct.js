@@ -218,7 +218,8 @@ export function sampleMesh(mesh, given) {
 
 /** @type {typeof import('./direct.js').paint} */
 export function paint(input, picture, options) {
-  const own = reading('INPUT', 'the input', () => ({ ...input }));
+  // A long text would become as many properties.
+  const own = reading('INPUT', 'the input', () => /** @type {typeof input} */ (isRecord(input) ? { ...input } : {}));
   return { ...own, ...paintOf(own, picture, options) };
 }
 

@@ -344,7 +344,7 @@ export function findPage(photo) {
 export function writePhoto(photo, given) {
   const { width, height, data } = asPhoto(photo);
   const { transfer, ...options } = printOptions(photo, given);
-  return bytesOf((wasm) => wasm.writePhoto(width, height, data, options));
+  return unshared(files.call((wasm) => wasm.writePhoto(width, height, data, options)));
 }
 
 /** @type {typeof import('./direct.js').writeBook} */
@@ -352,7 +352,7 @@ export function writeBook(pages, given) {
   const book = asBook(pages).map(({ words, ...page }) => (
     { ...page, texts: words.map(({ text }) => text), boxes: Float64Array.from(words.flatMap(({ box }) => box)) }));
   const options = optionsOf('writeBook', given);
-  return bytesOf((wasm) => wasm.writeBook(book, options));
+  return unshared(files.call((wasm) => wasm.writeBook(book, options)));
 }
 
 /** @type {typeof import('./direct.js').example} */
@@ -360,11 +360,6 @@ export function example(name, given) {
   const own = asText('OPTION', 'the name of the example', name);
   const options = optionsOf('example', given);
   return solver.call((wasm) => wasm.example(own, options));
-}
-
-/** @param {(wasm: typeof import('./wasm/files.js')) => Uint8Array} write */
-function bytesOf(write) {
-  return unshared(files.call(write));
 }
 
 /**

@@ -80,7 +80,7 @@ export async function bundlePage(folder) {
 /**
  * Writes beside each file of text or wasm what it is in Brotli and in gzip, for servers that send such files.
  * @param {string} folder
- * @param {{ quality?: number }} [options] quality of Brotli, of at most 11
+ * @param {{ quality?: number }} [options] quality of Brotli, of at most 11, and of gzip, which has 9
  */
 export async function compressFiles(folder, { quality = BROTLI_QUICK_QUALITY } = {}) {
   const entries = await readdir(folder, { recursive: true, withFileTypes: true });
@@ -88,7 +88,7 @@ export async function compressFiles(folder, { quality = BROTLI_QUICK_QUALITY } =
     const file = join(entry.parentPath, entry.name);
     const bytes = await readFile(file);
     await writeFile(`${file}.br`, await promisify(brotliCompress)(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: quality } }));
-    await writeFile(`${file}.gz`, await promisify(gzip)(bytes, { level: constants.Z_BEST_COMPRESSION }));
+    await writeFile(`${file}.gz`, await promisify(gzip)(bytes, { level: Math.min(quality, constants.Z_BEST_COMPRESSION) }));
   }));
 }
 

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { createServer } from 'vite';
-import { dottedPhoto } from '../page/support/photos.mjs';
+import { colouredPicture, levelPhoto } from '../page/support/photos.mjs';
 import { launch, openPage, skip } from './support/browser.mjs';
 import { root } from './support/paths.mjs';
 
@@ -41,8 +41,7 @@ function inApp(name, what, body) {
 }
 
 inApp('scanner', 'photos become a PDF of A4 pages, and a photo without a page is named', async (page) => {
-  const blank = dottedPhoto({ page: 60, ground: 60 });
-  const files = [{ name: 'page.png', buffer: dottedPhoto() }, { name: 'blank.png', buffer: blank }];
+  const files = [{ name: 'page.png', buffer: levelPhoto }, { name: 'blank.png', buffer: colouredPicture }];
   await page.locator('input').setInputFiles(files.map((file) => ({ ...file, mimeType: 'image/png' })));
   const link = page.getByRole('link', { name: 'Save scan.pdf' });
   await link.waitFor({ timeout: 60_000 });

@@ -78,7 +78,7 @@ inPage('a worker solves, without blob: or eval', async (page) => {
   assert.deepEqual([result.reason, result.real], ['rounding', true]);
 });
 
-test('in a page that is isolated from others the package works as well', { skip }, async () => {
+test('in a page that is isolated from others the package works as well, on two threads with the bits of one', { skip }, async () => {
   const isolated = await serve({ '/pkg/': pkg, '/': site }, isolation);
   const { page, incidents } = await openPage(browser, isolated.url);
   const result = await page.evaluate(`(async () => {
@@ -90,6 +90,21 @@ test('in a page that is isolated from others the package works as well', { skip 
     return { isolated: crossOriginIsolated, reasons };
   })()`);
   assert.deepEqual(result, { isolated: true, reasons: ['rounding', 'rounding', 'rounding'] });
+  const [one, two] = await page.evaluate(`(async () => {
+    // Threads are not limited by the cores of the machine that tests.
+    Object.defineProperty(navigator, 'hardwareConcurrency', { value: 2 });
+    const data = Float64Array.from({ length: 190 * 190 }, (_, i) => Math.abs((i % 190) - 75) + Math.sin(i));
+    const results = [];
+    for (const threads of [1, 2]) {
+      const worker = new developable.DevelopableWorker({ threads });
+      const { heights, report } = await worker.fit({ width: 190, height: 190, data }, { lambda: 1e6 });
+      worker.dispose();
+      results.push({ heights: Array.from(heights), threads: report.threads, limit: report.threadLimit });
+    }
+    return results;
+  })()`);
+  assert.deepEqual([one.threads, one.limit, two.threads, two.limit], [1, 'options', 2, 'options']);
+  assert.deepEqual(two.heights, one.heights);
   assert.deepEqual(incidents, []);
   await page.close();
   await isolated.close();

@@ -248,21 +248,24 @@ await writeFile(join(app, 'src/main.js'), `
   globalThis.result = main();
 `);
 
+/** @type {import('playwright-core').Browser} */
+let browser;
+if (!skip) {
+  before(async () => void (browser = await launch()));
+  after(() => browser?.close());
+}
+
 /**
  * @param {string} url
  * @param {RegExp[]} [expected] incidents
  */
 async function checkApp(url, expected = []) {
-  const browser = await launch();
-  try {
-    const { page, incidents } = await openPage(browser, url);
-    const { better, ...result } = await page.evaluate('globalThis.result');
-    assert.deepEqual(result, { reason: 'gap', code: 'NO_INTERIOR', aborted: 'TimeoutError' });
-    assert.ok(better < 0.6, `${better} of the noise is left`);
-    assert.deepEqual(incidents.filter((text) => !expected.some((pattern) => pattern.test(text))), []);
-  } finally {
-    await browser.close();
-  }
+  const { page, incidents } = await openPage(browser, url);
+  const { better, ...result } = await page.evaluate('globalThis.result');
+  assert.deepEqual(result, { reason: 'gap', code: 'NO_INTERIOR', aborted: 'TimeoutError' });
+  assert.ok(better < 0.6, `${better} of the noise is left`);
+  assert.deepEqual(incidents.filter((text) => !expected.some((pattern) => pattern.test(text))), []);
+  await page.close();
 }
 
 test('an app bundled with Vite runs under the strict policy', { skip }, async () => {
@@ -311,15 +314,11 @@ test('where a policy forbids workers from copies, the error says what to do, and
   const out = await bundleWithoutFiles('strict');
   const server = await serve({ '/': out, '/developable/': join(app, 'node_modules/developable') });
   after(() => server.close());
-  const browser = await launch();
-  try {
-    const { page } = await openPage(browser, server.url);
-    const { code, message } = await page.evaluate('globalThis.result.catch(({ code, message }) => ({ code, message }))');
-    assert.equal(code, 'WORKER');
-    assert.match(message, /worker-src 'self' blob:.*init\(\{ workerUrl: '\/developable\/worker\.js' \}\)/);
-  } finally {
-    await browser.close();
-  }
+  const { page } = await openPage(browser, server.url);
+  const { code, message } = await page.evaluate('globalThis.result.catch(({ code, message }) => ({ code, message }))');
+  assert.equal(code, 'WORKER');
+  assert.match(message, /worker-src 'self' blob:.*init\(\{ workerUrl: '\/developable\/worker\.js' \}\)/);
+  await page.close();
   const main = await readFile(join(app, 'src/main.js'), 'utf8');
   const told = main.replace('import { fit,', 'import { init, fit,')
     .replace('async function main() {', "async function main() {\n  await init({ workerUrl: '/developable/worker.js' });");

@@ -276,7 +276,7 @@ const sheet = photoOf(600, 700, (x, y) => {
 });
 
 test('photos come as files, corners as points, and options without edges', async () => {
-  const known = /** @type {const} */ ({ focalLength: 700, page: 'a4', dots: 1 });
+  const known = /** @type {const} */ ({ focalLength: 700, page: 'a4', dots: 1, findLines: false });
   const flat = direct.dewarpPage(sheet, undefined, known);
   assert.deepEqual([flat.width, flat.height, flat.outline], [210, 297, direct.findPage(sheet)]);
   assert.deepEqual(direct.dewarpPage(sheet, known), flat);
@@ -287,7 +287,7 @@ test('photos come as files, corners as points, and options without edges', async
   const byCorners = direct.dewarpPage(sheet, corners, known);
   assert.deepEqual(byCorners, direct.dewarpPage(sheet, { top: [a, b], bottom: [d, c], left: [a, d], right: [b, c] }, known));
   // The edges are traced in the photo, or straight if that is asked for.
-  const asGiven = { ...known, traceEdges: false, findLines: false };
+  const asGiven = { ...known, traceEdges: false };
   const straight = direct.dewarpPage(sheet, corners, asGiven);
   const points = (/** @type {typeof flat} */ { edges: [{ top, left }] }) => [top, left].map((edge) => (Array.isArray(edge) ? edge.length : 0));
   assert.deepEqual(points(straight), [2, 2]);
@@ -330,7 +330,7 @@ const shaded = {
 };
 
 test('light is evened on documents, kept where that is wished, and pages become black and white', () => {
-  const known = /** @type {const} */ ({ focalLength: 700, page: 'a4', dots: 2 });
+  const known = /** @type {const} */ ({ focalLength: 700, page: 'a4', dots: 2, findLines: false });
   const [even, kept, ink] = [{}, { light: 'keep' }, { ink: true }].map((more) => direct.dewarpPage(shaded, undefined, { ...known, .../** @type {{}} */ (more) }));
   assert.deepEqual([even.light, kept.light, ink.light], ['even', 'keep', 'even']);
   /** The smallest value of each colour on the page below its text. @param {{ width: number, height: number, data: Uint8ClampedArray }} flat */

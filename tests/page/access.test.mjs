@@ -1,7 +1,7 @@
 /** By keyboard, on a phone, and in the dark. */
 import assert from 'node:assert/strict';
-import { grid, npy } from './support/files.mjs';
-import { choose, doorTest, drop, enterPages, look, open, pageTest, painted, runBy, settled } from './support/page.mjs';
+import { grid, npy, tornObj } from './support/files.mjs';
+import { choose, doorTest, drop, enterPages, look, open, pageTest, painted, runBy, settled, viewed } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -35,7 +35,7 @@ async function tabTo(page, selector, key = 'Tab') {
 
 pageTest('attributes name elements that there are, and nothing that is said waits for a picture', async (page) => {
   await choose(page.getByRole('radio', { name: 'Patches', exact: true }));
-  await page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
+  await viewed(page);
   await enterPages(page);
   await page.locator('#page-format').waitFor();
   const { missing, silent } = await page.evaluate(() => {
@@ -111,7 +111,7 @@ pageTest('every view fits on a phone, light and dark, with the pixels of the dev
     await page.emulateMedia({ colorScheme });
     for (const radio of await page.locator('label:not([hidden]) > input[name="view"]').all()) {
       await choose(radio);
-      await page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
+      await viewed(page);
       await painted(page);
       assert.ok(await excess(page) <= 0, `${await radio.inputValue()}: ${await excess(page)} pixels, ${colorScheme}`);
     }
@@ -132,7 +132,7 @@ doorTest('a file with a long name can be saved on a phone', async (page) => {
   const [name, links] = await Promise.all(['.masthead h1', '.masthead nav'].map((one) => page.locator(one).boundingBox()));
   assert.ok(name && links && links.y < name.y, 'one line above the picture');
   await page.keyboard.press('Escape');
-  await drop(page, `${'long_words_joined_by_lines_'.repeat(4)}.obj`, Buffer.from('v 0 0 0\nv 1 0\nf 1 2 9\n'));
+  await drop(page, `${'long_words_joined_by_lines_'.repeat(4)}.obj`, tornObj);
   const close = await page.getByRole('button', { name: 'Dismiss this message' }).boundingBox();
   assert.ok(close && close.x + close.width <= 390, 'what is said about it can be dismissed');
 }, { size: { width: 390, height: 844 } });

@@ -9,8 +9,8 @@ import { writeGuide } from '../../tools/site/guide.mjs';
 import { CARDS } from '../../www/gallery/cards.js';
 import { noisyBox } from './support/box.mjs';
 import { obj } from './support/files.mjs';
-import { choose, doorTest, drop, enterPages, inChromium, openFromOneSide, pageTest, painted } from './support/page.mjs';
-import { dottedPhoto } from './support/photos.mjs';
+import { levelPhoto } from './support/photos.mjs';
+import { choose, doorTest, drop, enterPages, inChromium, openFromOneSide, pageTest, painted, sheetsDrawn, solvedWhole, viewed } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -69,7 +69,7 @@ pageTest('axe finds nothing wrong with any view', async (page) => {
   if (!(await page.locator('#drawer').isVisible())) await page.locator('#report-open').click();
   for (const radio of await page.locator('label:not([hidden]) > input[name="view"]').all()) {
     await choose(radio);
-    await page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
+    await viewed(page);
     await soundEverywhere(page, await radio.inputValue(), { within: 'section[aria-label="Surfaces"]' });
   }
   // It does see what is wrong.
@@ -99,7 +99,7 @@ pageTest('with more contrast, text has 7 to 1, and borders are seen', async (pag
 
 doorTest('axe finds nothing wrong with a photo of a page', async (page) => {
   await enterPages(page);
-  await drop(page, 'IMG_1.png', dottedPhoto());
+  await drop(page, 'IMG_1.png', levelPhoto);
   await page.locator('#page-caption', { hasText: 'IMG_1' }).waitFor();
   await page.locator('#flat-view[aria-busy="false"]').waitFor({ state: 'attached' });
   await unfold(page);
@@ -112,9 +112,9 @@ doorTest('axe finds nothing wrong with a whole mesh', async (page) => {
   await soundEverywhere(page, 'a mesh');
   await choose(page.getByRole('radio', { name: 'Whole mesh', exact: true }));
   for (const view of ['shaded', 'gaussian', 'patches', 'sheet']) {
-    await page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
+    await solvedWhole(page);
     await choose(page.locator(`input[name="view"][value="${view}"]`));
-    await page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
+    await solvedWhole(page);
     await soundEverywhere(page, `whole, ${view}`);
   }
 });
@@ -131,7 +131,7 @@ pageTest('axe finds nothing wrong with surfaces in space, the gallery, and dialo
   await page.keyboard.press('Escape');
   await page.locator('#end-sheets').click();
   await soundEverywhere(page, 'sheets, or while they are cut', { within: '#save-dialog' });
-  await page.locator('.preview[aria-busy="false"] img').waitFor();
+  await sheetsDrawn(page);
   await soundEverywhere(page, 'sheets', { within: '#save-dialog' });
   await page.keyboard.press('Escape');
 }, { drawn: true });

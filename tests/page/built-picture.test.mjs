@@ -1,14 +1,13 @@
 /** The picture of a pattern put together. */
 import assert from 'node:assert/strict';
+import { cuboid } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { openWhole, saveAs, sharedDoorTest } from './support/page.mjs';
 import { parsePng } from './support/photos.mjs';
 
 sharedDoorTest('the picture of a finished tower is upright, shaded, at an angle and numbered, and a model of it moves', async (page) => {
   // OBJ files take y for the axis that points upwards.
-  const points = Array.from({ length: 8 }, (_, i) => /** @type {[number, number, number]} */ ([20, 60, 20].map((side, k) => side * ((i >> k) & 1))));
-  const triangles = /** @type {[number, number, number][]} */ ([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]].flatMap(([a, b, c, d]) => [[a, b, c], [a, c, d]]));
-  await openWhole(page, 'tower.obj', obj({ points, triangles }));
+  await openWhole(page, 'tower.obj', obj(cuboid([20, 60, 20])));
   await page.locator('#end-sheets').click();
   const { width, data } = parsePng((await saveAs(page, 'PNG')).bytes);
   /** Columns and rows of what is coloured, and its tones. */

@@ -1,9 +1,9 @@
 /** Files in, by drop and by dialog, sound and broken; files out. */
 import assert from 'node:assert/strict';
 import { read, writeImage } from '../../pkg/index.js';
-import { grid, npy, obj, parseNpy, png16 } from './support/files.mjs';
+import { grid, npy, obj, parseNpy, png16, ramp } from './support/files.mjs';
+import { colouredPicture } from './support/photos.mjs';
 import { choose, doorTest, drop, dropAll, enterPages, open, reported, runBy, save, settled, sharedDoorTest, sharedTest } from './support/page.mjs';
-import { dottedPhoto } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -98,7 +98,7 @@ sharedDoorTest('heights along one line are refused with the reason', async (page
 });
 
 doorTest('a file, a mesh’s other side and a file to be saved can be done without: their workers end, and what was there stays', async (page) => {
-  await open(page, 'ramp.obj', obj({ points: [[0, 0, 0], [3, 0, 0], [3, 2, 1], [0, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]] }));
+  await open(page, 'ramp.obj', ramp);
   await settled(page);
   await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
   await settled(page);
@@ -131,6 +131,10 @@ doorTest('a file, a mesh’s other side and a file to be saved can be done witho
     await hold(true);
     await act();
     await page.locator(`#${panel}`, { hasText: words }).waitFor();
+    if (i === 0) {
+      const opening = page.getByRole('group', { name: 'Opening a file' });
+      assert.deepEqual([await opening.getByRole('button', { name: 'Cancel' }).count(), await opening.locator('progress:indeterminate').count()], [1, 1], 'nothing tells how long it takes');
+    }
     const gone = await page.locator(`#${panel}-cancel`).evaluate((/** @type {HTMLButtonElement} */ button) => {
       button.click();
       return button.parentElement?.hidden;
@@ -188,15 +192,13 @@ sharedDoorTest('what the name of a file does not tell, its contents do', async (
 
 sharedTest('the kind of a file chooses the part of the page, and what does not belong to it is named', async (page) => {
   const alert = page.getByRole('alert');
-  const photo = dottedPhoto({ page: 240, ground: 60 }, [1, 0.9, 0.8]);
-  const ramp = obj({ points: [[0, 0, 0], [3, 0, 0], [3, 2, 1], [0, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]] });
   // What cannot be opened leaves the first screen as it is, and is named with the way out.
   await page.getByRole('link', { name: 'developable' }).click();
   await dropAll(page, { 'IMG_6.heic': Buffer.from('\0\0\0\x18ftypheic\0\0\0\0heicmif1', 'latin1') });
   await alert.filter({ hasText: /“IMG_6\.heic” could not be opened: HEIC: save it as JPEG/ }).waitFor();
   assert.ok(await page.locator('#home').isVisible());
   // A photo on the first screen, beside something that cannot be read.
-  await dropAll(page, { 'IMG_7.png': photo, 'letter.docx': Buffer.from('PK\x03\x04') });
+  await dropAll(page, { 'IMG_7.png': colouredPicture, 'letter.docx': Buffer.from('PK\x03\x04') });
   await page.locator('#page-caption', { hasText: 'IMG_7' }).waitFor();
   assert.ok(await page.locator('#page-side').isVisible());
   await alert.filter({ hasText: /Taken for a photo of a page\. Left out: “letter\.docx”\. With photos of pages go only photos/ }).waitFor();
@@ -204,11 +206,11 @@ sharedTest('the kind of a file chooses the part of the page, and what does not b
   await alert.getByRole('button', { name: 'Heights instead?' }).click();
   await alert.filter({ hasText: /has no heights\. With its depths, open both together/ }).waitFor();
   // A photo that cannot be read does not keep the next one from being opened, and is named.
-  await dropAll(page, { 'IMG_8.heic': Buffer.from('\0\0\0\x18ftypheic\0\0\0\0heicmif1', 'latin1'), 'IMG_9.png': photo });
+  await dropAll(page, { 'IMG_8.heic': Buffer.from('\0\0\0\x18ftypheic\0\0\0\0heicmif1', 'latin1'), 'IMG_9.png': colouredPicture });
   await page.locator('#page-caption', { hasText: 'IMG_9' }).waitFor();
   await alert.filter({ hasText: '“IMG_8.heic” could not be opened' }).waitFor();
   // A mesh with another one and a photo that it does not name.
-  await dropAll(page, { 'ramp.obj': ramp, 'other.obj': ramp, 'IMG_7.png': photo });
+  await dropAll(page, { 'ramp.obj': ramp, 'other.obj': ramp, 'IMG_7.png': colouredPicture });
   await page.locator('#input-caption', { hasText: 'ramp' }).waitFor({ state: 'attached' });
   await settled(page);
   assert.match(await alert.innerText(), /^Left out: “other\.obj”, “IMG_7\.png”\. With a model go only the textures and materials that it names\./);

@@ -2,9 +2,9 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { deflateSync } from 'node:zlib';
-import { chunk, grid, npy, obj } from './support/files.mjs';
-import { choose, drop, pageTest, settled } from './support/page.mjs';
-import { dottedPhoto } from './support/photos.mjs';
+import { chunk, grid, npy, ramp, tornObj } from './support/files.mjs';
+import { choose, drop, pageTest, settled, solvedWhole } from './support/page.mjs';
+import { colouredPicture } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -44,7 +44,7 @@ pageTest('behind each door is an example, one click away, and Back leads to the 
   await page.locator('#notice', { hasText: 'has not kept the file' }).waitFor();
   assert.ok(await home.isVisible(), 'a file that is gone leads to the doors');
 
-  await drop(page, 'broken.obj', Buffer.from('v 0 0 0\nv 1 0\nf 1 2 9\n'));
+  await drop(page, 'broken.obj', tornObj);
   await page.getByRole('alert').filter({ hasText: 'broken.obj' }).waitFor();
   await home.waitFor();
   assert.ok(await home.isVisible(), 'so does one that cannot be read');
@@ -65,7 +65,7 @@ pageTest('behind each door is an example, one click away, and Back leads to the 
   await page.getByRole('link', { name: 'developable' }).click();
 
   await page.locator('[data-example="model"]').click();
-  await page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
+  await solvedWhole(page);
   assert.match(await page.locator('#mesh-name').innerText(), /house \(OBJ\)/);
   // Its faces are flat: colours between its corners would be none of theirs.
   await choose(page.getByRole('radio', { name: 'Curvature K' }));
@@ -95,7 +95,7 @@ pageTest('what is dropped or pasted on the first screen opens its door', async (
     const clipboardData = new DataTransfer();
     clipboardData.items.add(new File([Uint8Array.from(atob(content), (character) => character.charCodeAt(0))], 'image.png', { type: 'image/png' }));
     document.body.dispatchEvent(new ClipboardEvent('paste', { clipboardData, bubbles: true }));
-  }, dottedPhoto({ page: 240, ground: 60 }, [1, 0.9, 0.8]).toString('base64'));
+  }, colouredPicture.toString('base64'));
   await page.locator('#page-caption', { hasText: 'image' }).waitFor();
 }, { start: '' });
 
@@ -126,15 +126,14 @@ pageTest('a file that cannot be read leads back to the doors, though something w
   const home = page.locator('#home');
   await page.getByRole('link', { name: 'developable' }).click();
   await home.waitFor();
-  const broken = Buffer.from('v 0 0 0\nv 1 0\nf 1 2 9\n');
-  await drop(page, 'broken.obj', broken);
+  await drop(page, 'broken.obj', tornObj);
   await page.getByRole('alert').filter({ hasText: 'broken.obj' }).waitFor();
   await home.waitFor();
   assert.equal(await page.locator('#heights-side').isVisible(), false);
   await page.goBack();
   await page.locator('#heights-side').waitFor();
   assert.match(await page.locator('#input-caption').innerText(), /^cylinder/, 'Back leads to what was open');
-  await drop(page, 'later.obj', broken);
+  await drop(page, 'later.obj', tornObj);
   await page.getByRole('alert').filter({ hasText: 'later.obj' }).waitFor();
   assert.ok(await page.locator('#heights-side').isVisible());
 });
@@ -152,7 +151,7 @@ pageTest('while something is opened, the page says so and not that it shows noth
     return words;
   });
   // Only its contents tell what it is.
-  await drop(page, 'ramp', obj({ points: [[0, 0, 0], [3, 0, 0], [3, 2, 1], [0, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]] }));
+  await drop(page, 'ramp', ramp);
   await page.locator('#mesh-name', { hasText: 'OBJ' }).waitFor();
   assert.equal((await said.jsonValue())[0], 'Reading the file…');
   await page.getByRole('link', { name: 'developable' }).click();

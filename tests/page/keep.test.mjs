@@ -5,8 +5,8 @@ import { CARDS } from '../../www/gallery/cards.js';
 import { test } from 'node:test';
 import { grid, npy } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
+import { colouredPicture } from './support/photos.mjs';
 import { drop, enterPages, open, pageTest, reported, runBy, settled, typeLambda } from './support/page.mjs';
-import { png } from './support/photos.mjs';
 
 const defaults = /** @type {const} */ ({ lambda: 1e6, gap: 0.01, coarsening: 1, energy: 'nuclear', occlusionThreshold: undefined });
 
@@ -79,7 +79,7 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   // A photo of a page, too; going back leads to what was there before it.
   await enterPages(page);
   await page.locator('#page-caption', { hasText: 'curled' }).waitFor();
-  await drop(page, 'letter.png', png({ width: 64, height: 48, data: Uint8Array.from({ length: 4 * 64 * 48 }, (_, i) => [200, 100, 50, 255][i % 4]) }));
+  await drop(page, 'letter.png', colouredPicture);
   await page.waitForURL(/file=\d+&photo=1/);
   await page.reload();
   await page.locator('#page-caption', { hasText: 'letter' }).waitFor();

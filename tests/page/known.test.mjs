@@ -2,14 +2,13 @@
 import assert from 'node:assert/strict';
 import { grid, npy, parseNpy } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { doorTest, drop, open, reported, runBy, save, sharedDoorTest, sharedTest, typeLambda } from './support/page.mjs';
+import { open, reported, runBy, save, sharedDoorTest, sharedTest, typeLambda } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
 const [WIDTH, HEIGHT] = [48, 36];
 /** @param {number} col @param {number} row */
 const slope = (col, row) => 20 + 0.3 * col + 0.5 * row;
-const plane = grid(WIDTH, HEIGHT, slope);
 
 /** @param {Page} page */
 const run = (page) => runBy(page, () => page.getByRole('button', { name: 'Solve', exact: true }).click());
@@ -43,29 +42,7 @@ sharedDoorTest('where it jumps it is torn', async (page) => {
   assert.ok(torn < smoothed / 2, `${torn} against ${smoothed}`);
 }, { drawn: true });
 
-doorTest('reading a file can be done without', async (page) => {
-  await open(page, 'slope.npy', npy(WIDTH, plane));
-  // The request to read never reaches the worker, so that reading does not end by itself.
-  await page.evaluate(() => {
-    const own = Worker.prototype.postMessage;
-    Worker.prototype.postMessage = function (/** @type {any} */ message, /** @type {any} */ transfer) {
-      if (message?.argumentList?.[0]?.value === 'read') return;
-      own.call(this, message, transfer);
-    };
-  });
-  await drop(page, 'known.exr', npy(WIDTH, plane.map(() => 1)));
-  const opening = page.getByRole('group', { name: 'Opening a file' });
-  await opening.getByText('Reading the file').waitFor();
-  // Nothing tells how long it takes.
-  assert.equal(await opening.locator('progress:indeterminate').count(), 1);
-  await opening.getByRole('button', { name: 'Cancel' }).click();
-  assert.equal(await opening.isVisible(), false);
-  assert.match(await page.locator('#file-name').innerText(), /slope/);
-  assert.equal(await page.locator('#notice').isVisible(), false);
-});
-
 sharedTest('another energy is told of', async (page) => {
-  await runBy(page, () => page.locator('#size').selectOption('100'));
   await runBy(page, () => page.locator('#energy').selectOption('frobenius'));
   assert.ok((await names(page)).includes('Bending') && !(await names(page)).includes('Nuclear norms'));
   assert.match(await page.locator('#energy-hint').innerText(), /Frobenius/);
@@ -74,7 +51,6 @@ sharedTest('another energy is told of', async (page) => {
 });
 
 sharedTest('the slider restarts the solver while it is dragged', async (page) => {
-  await runBy(page, () => page.locator('#size').selectOption('100'));
   const cold = parsed(await reported(page, 'Iterations'));
   // To the middle of the slider.
   await runBy(page, () => typeLambda(page, '1e6'));

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { grid, npy } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, doorTest, open, pageTest, reported, runBy, settled, typeLambda } from './support/page.mjs';
+import { choose, doorTest, open, pageTest, reported, runBy, settled, typeLambda, viewed } from './support/page.mjs';
 
 /** Pixels of the side of the smallest image that is a large one. */
 const LARGE = 500;
@@ -73,7 +73,7 @@ pageTest('what grows with the size of a result is done in workers, and a picture
   assert.ok(previews > 0, 'there was a picture before the result');
   for (const view of ['gaussian', 'rulings', 'patches', 'sheet']) {
     await choose(page.locator(`input[name="view"][value="${view}"]`));
-    await page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
+    await viewed(page);
   }
   const { result } = await debug.send('Profiler.takePreciseCoverage');
   /** @param {string} file @param {string} [name] */
@@ -112,7 +112,7 @@ doorTest('the solver of a large input gives its memory back when it rests, comes
   }, 8 * LARGE ** 2);
   const seen = () => page.evaluate(() => /** @type {any} */ (window).seen);
   // Nearly all of it is a hole.
-  const fold = grid(LARGE, LARGE, (col, row) => (Math.hypot(col - LARGE / 2, row - LARGE / 2) < 90 ? 0.4 * Math.abs(col - LARGE / 2) : NaN));
+  const fold = grid(LARGE, LARGE, (col, row) => (Math.hypot(col - LARGE / 2, row - LARGE / 2) < 60 ? 0.4 * Math.abs(col - LARGE / 2) : NaN));
   await open(page, 'fold.npy', npy(LARGE, fold));
   assert.deepEqual(await seen(), { opened: 1, ended: 0 });
   await page.waitForFunction(() => /** @type {any} */ (window).seen.ended === 1);

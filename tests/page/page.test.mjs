@@ -8,8 +8,8 @@ import { flattenWholePhoto } from '../../www/page/flatten.js';
 import { init, load, writeBook } from '../../pkg/direct.js';
 import { readPdf, readPdfPicture } from '../js/support/drawings.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, doorTest, drop, dropAll, ended, enterPages, look, painted, saveAs, sharedDoorTest } from './support/page.mjs';
-import { camera, dottedPhoto, misplaced, parsePng, png, seen } from './support/photos.mjs';
+import { choose, doorTest, drop, dropAll, ended, enterPages, figure, look, painted, saveAs, sharedDoorTest } from './support/page.mjs';
+import { camera, dottedPhoto, levelPhoto, LEVEL_WIDTH, misplaced, parsePng, png, seen } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('./support/photos.mjs').Place} Place */
@@ -19,11 +19,6 @@ const photo = dottedPhoto();
 const pale = dottedPhoto({ page: 225, ground: 195 });
 /** A small picture of one grey, in which soon no page is found. */
 const blank = png({ width: 64, height: 48, data: new Uint8Array(4 * 64 * 48).fill(128) });
-/** A small one of an empty A4 page, seen from straight above: flattened in a third of the time. */
-const level = png({ width: 400, height: 300, data: new Uint8Array(4 * 400 * 300).map((_, i) => {
-  const [x, y] = [(i >> 2) % 400, Math.floor((i >> 2) / 400)];
-  return i % 4 === 3 ? 255 : x >= 120 && x < 280 && y >= 30 && y < 256 ? 230 : 60;
-}) });
 /** Dots alone, without any page to be seen. */
 const hidden = dottedPhoto({ page: 200, ground: 200 });
 
@@ -53,11 +48,11 @@ async function placeOf(page, name) {
   return [Number(x), Number(y)];
 }
 
-/** From pixels of the photo to those of the page. @param {Page} page @param {Place} place @returns {Promise<Place>} */
-async function onPage(page, [x, y]) {
+/** From pixels of a photo to those of the page. @param {Page} page @param {Place} place @param {number} [wide] pixels of the photo from left to right @returns {Promise<Place>} */
+async function onPage(page, [x, y], wide = camera.width) {
   const box = await page.locator('#page-photo').boundingBox();
   assert.ok(box);
-  return [box.x + ((x + 0.5) / camera.width) * box.width, box.y + ((y + 0.5) / camera.height) * box.height];
+  return [box.x + ((x + 0.5) / wide) * box.width, box.y + ((y + 0.5) / wide) * box.width];
 }
 
 /** @param {Page} page @param {string} name @param {Place} to */
@@ -82,10 +77,7 @@ async function savedPage(page, format) {
 }
 
 /** @param {Page} page @param {string} name */
-async function told(page, name) {
-  const figure = page.locator('#flat-about .figures div').filter({ has: page.locator('dt', { hasText: name }) });
-  return (await figure.locator('dd').textContent() ?? '').trim();
-}
+const told = async (page, name) => String(await figure(page, '#flat-about', name).textContent()).trim();
 
 /** Places of a traced edge: 0 the upper one, 1 the lower one. @param {Page} page @param {number} edge @param {number[]} shares of its length */
 function edgePlaces(page, edge, shares) {
@@ -159,8 +151,9 @@ sharedDoorTest('a page that is not found has no flat page, no figure and no file
   assert.equal(await page.locator('#flat-facts').isVisible(), false);
   assert.deepEqual(await placeOf(page, 'Upper left corner'), [120, 90], 'a quadrilateral to start from');
   const before = await page.locator('#page-photo').boundingBox();
+  // A rectangle, which is soon made flat.
   for (const [i, [name, s, t]] of CORNERS.entries()) {
-    await drag(page, name, seen(s, t));
+    await drag(page, name, [240 + 320 * s, 60 + 452 * t]);
     if (i === 3) break;
     assert.ok(await save.isDisabled());
     assert.match(await detail.innerText(), /^The flat page appears when the (other \d|last one)/);
@@ -176,7 +169,7 @@ sharedDoorTest('a page that is not found has no flat page, no figure and no file
 
 doorTest('photos that are opened together become one PDF, each with its own outline', async (page) => {
   await enterPages(page);
-  await dropAll(page, { 'one.png': level, 'two.png': level, 'none.png': blank });
+  await dropAll(page, { 'one.png': levelPhoto, 'two.png': levelPhoto, 'none.png': blank });
   const numbers = page.locator('#book').getByRole('button', { name: /^Photo \d/ });
   await page.locator('#page-caption', { hasText: 'one' }).waitFor();
   await flattened(page);
@@ -228,7 +221,7 @@ doorTest('photos that are opened together become one PDF, each with its own outl
   const pictures = unzipSync((await savedPage(page, 'ZIP')).bytes);
   assert.deepEqual(Object.entries(pictures).map(([name, picture]) => [name, picture[0], picture[1]]), [['one-1.jpg', 0xff, 0xd8], ['one-2.jpg', 0xff, 0xd8]]);
   // Another photo is added; all of them are there after a reload, as they were left.
-  await drop(page, 'photograph_four.png', level);
+  await drop(page, 'photograph_four.png', levelPhoto);
   await page.locator('#page-caption', { hasText: 'four' }).waitFor();
   assert.equal(await numbers.nth(3).innerText(), '4 …aph_four');
   await flattened(page);
@@ -323,7 +316,7 @@ doorTest('text is recognised in the PDF when it is asked for, by what is loaded 
 });
 
 doorTest('paper is white, or as it was photographed, or the page is black and white', async (page) => {
-  await openPhoto(page, 'letter.png', photo);
+  await openPhoto(page, 'letter.png', levelPhoto);
   const paper = async () => {
     const { bytes } = await savedPage(page, 'PNG');
     await page.locator('#save-dialog').evaluate((dialog) => /** @type {HTMLDialogElement} */ (dialog).close());
@@ -634,7 +627,7 @@ sharedDoorTest('what is no photo gets a message and changes nothing, and what is
 const phone = { width: 390, height: 844 };
 
 doorTest('on a phone a finger drags, and nothing scrolls', async (page) => {
-  await openPhoto(page, 'letter.png', photo);
+  await openPhoto(page, 'letter.png', levelPhoto);
   const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
   assert.ok(excess <= 0, `${excess} pixels stick out`);
   for (const one of await page.locator('.handle').all()) {
@@ -648,7 +641,7 @@ doorTest('on a phone a finger drags, and nothing scrolls', async (page) => {
   await page.locator('#page-photo').scrollIntoViewIfNeeded();
   const scrolled = await page.evaluate(() => window.scrollY);
   const touch = await page.context().newCDPSession(page);
-  const [fromX, fromY] = await onPage(page, [x, y]);
+  const [fromX, fromY] = await onPage(page, [x, y], LEVEL_WIDTH);
   await touch.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [{ x: fromX + 8, y: fromY + 8 }] });
   for (const k of [1, 2, 3, 4]) {
     await touch.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: [{ x: fromX + 8 + 5 * k, y: fromY + 8 - 12 * k }] });
@@ -658,7 +651,7 @@ doorTest('on a phone a finger drags, and nothing scrolls', async (page) => {
   const [u, v] = await placeOf(page, 'Lower left corner');
   const box = await page.locator('#page-photo').boundingBox();
   assert.ok(box);
-  const scale = camera.width / box.width;
+  const scale = LEVEL_WIDTH / box.width;
   assert.ok(Math.abs(u - x - 20 * scale) < 2 * scale && Math.abs(v - y + 48 * scale) < 2 * scale, `${u - x}, ${v - y}`);
   // The finger rests before it leaves, or Chromium takes the next tap for the end of a fling.
   await page.waitForTimeout(300);
@@ -704,7 +697,7 @@ sharedDoorTest('a photo that is being read can be done without', async (page) =>
   }, cancel);
   // What is opened meanwhile is a further page.
   assert.equal(await open(false), false);
-  await openPhoto(page, 'letter.png', photo);
+  await openPhoto(page, 'letter.png', levelPhoto);
   assert.ok(await page.locator('#page-side').isVisible());
   assert.equal(await page.locator('#book .page-button').count(), 2);
   const caption = page.locator('#page-caption');

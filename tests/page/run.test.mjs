@@ -12,8 +12,10 @@ import { parsePng } from './support/photos.mjs';
  * @param {Page} page
  */
 async function startLongRun(page) {
-  await runBy(page, () => page.locator('#size').selectOption('400'));
-  await runBy(page, () => typeLambda(page, '1e5'));
+  await page.locator('#size').selectOption('400');
+  await page.locator('#input-caption', { hasText: '400 × 400' }).waitFor();
+  // Each ends the run before.
+  await typeLambda(page, '1e5');
   await page.getByLabel('Proven within').selectOption('0.0001');
   await page.locator('#page[data-phase="running"]').waitFor();
   await page.locator('#running span', { hasText: 'iterations' }).waitFor();

@@ -4,14 +4,13 @@ import { test } from 'node:test';
 import { dispose, pattern } from '../../pkg/index.js';
 import { sheetsInWords } from '../../www/pattern.js';
 import { edgeAt, parsePairs, togglePair } from '../../www/sheet-edges.js';
+import { cuboid } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { doorTest, openWhole, pageTest, workBy } from './support/page.mjs';
+import { doorTest, figure, openSheets, openWhole, pageTest, solvedWhole, workBy } from './support/page.mjs';
 
 /** A box of 60 × 40 × 20: its faces by number, the largest first, come in opposite pairs. */
-const SIDES = [60, 40, 20];
-const points = Array.from({ length: 8 }, (_, i) => /** @type {[number, number, number]} */ (SIDES.map((side, k) => side * ((i >> k) & 1))));
-const triangles = /** @type {[number, number, number][]} */ ([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]].flatMap(([a, b, c, d]) => [[a, b, c], [a, c, d]]));
+const { points, triangles } = cuboid([60, 40, 20]);
 const box = { positions: Float64Array.from(points.flat()), triangles: Uint32Array.from(triangles.flat()) };
 const opposite = ['1-2', '3-4', '5-6'];
 
@@ -71,9 +70,7 @@ pageTest('less detail makes simpler pieces while their sheets are shown', async 
 
 doorTest('a fold that is clicked in the drawing is cut', async (page) => {
   await openWhole(page, 'box.obj', obj({ points, triangles }));
-  await page.locator('#end-sheets').click();
-  const image = page.locator('.preview[aria-busy="false"] img');
-  await image.waitFor();
+  const image = await openSheets(page);
   const [toCut, toJoin] = [page.getByLabel('Cut between pieces'), page.getByLabel('Fold between pieces')];
   const address = await image.getAttribute('src');
   const drawing = await pattern(box, { size: 60, tabs: 6, stock: 'letter' });
@@ -130,14 +127,13 @@ doorTest('a solid of sheet metal is cut as the blank that it is bent from', asyn
   }
   const points = [0, width].flatMap((y) => section.map(([x, z]) => /** @type {[number, number, number]} */ ([x, y, z])));
   await openWhole(page, 'angle.obj', obj({ points, triangles }));
-  await page.locator('#end-sheets').click();
-  await page.locator('.preview[aria-busy="false"] img').waitFor();
+  await openSheets(page);
   await page.getByLabel('Material').selectOption('metal');
   await page.getByText('2 mm thick: this is the blank').waitFor();
   await page.locator('.sheets .said', { hasText: /^One sheet, with one fold\.$/ }).waitFor();
   assert.equal(await page.getByLabel('Thickness, mm').isVisible(), false);
   const area = width * (legs[0] + legs[1] - 2 * (thickness + inner) + (Math.PI / 2) * (inner + 0.44 * thickness));
-  const told = await page.locator('.sheets .figures div').filter({ has: page.locator('dt', { hasText: 'Area' }) }).locator('dd').textContent();
+  const told = await figure(page, '.sheets', 'Area').textContent();
   assert.ok(Math.abs(100 * parsed(String(told)) / area - 1) < 0.005, `${told} for ${area} mm²`);
 
   // While it is cut again, too, its thickness is its own.
@@ -176,8 +172,7 @@ doorTest('the size and the cuts of a model stay with it, and what no piece has i
   const [side, toCut, wrong] = [page.getByLabel('Longer side when finished'), page.getByLabel('Cut between pieces'), page.locator('#sheet-cut-wrong')];
   /** @param {[string, string]} wanted */
   const shows = async (...wanted) => {
-    await page.locator('#end-sheets').click();
-    await page.locator('.preview[aria-busy="false"] img').waitFor();
+    await openSheets(page);
     assert.deepEqual([await side.inputValue(), await toCut.inputValue()], wanted);
     assert.equal(await page.evaluate(() => document.activeElement?.id), 'save-title', 'the dialog is read from its heading');
   };
@@ -196,7 +191,7 @@ doorTest('the size and the cuts of a model stay with it, and what no piece has i
   await shows('90', '1-3');
   await page.waitForURL(/file=\d/);
   await page.reload();
-  await page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
+  await solvedWhole(page);
   await shows('90', '1-3');
   await page.getByRole('button', { name: 'Close' }).click();
   await openWhole(page, 'plate.obj', obj({ points: points.slice(0, 4), triangles: triangles.slice(0, 2) }));
@@ -208,9 +203,7 @@ doorTest('the size and the cuts of a model stay with it, and what no piece has i
 
 doorTest('the picture of the sheets stays in view beside the fields, above the formats and Save, and can be enlarged', async (page) => {
   await openWhole(page, 'box.obj', obj({ points, triangles }));
-  await page.locator('#end-sheets').click();
-  const image = page.locator('.preview[aria-busy="false"] img');
-  await image.waitFor();
+  const image = await openSheets(page);
   await page.locator('#save-now:enabled').waitFor();
   await page.locator('.sheets-options').evaluate((box) => (box.scrollTop = box.scrollHeight));
   const [picture, kerf, format, save] = await Promise.all([image, page.getByLabel('Kerf'), page.getByRole('radio', { name: /^DXF / }), page.locator('#save-now')].map((one) => one.boundingBox()));
@@ -227,7 +220,7 @@ doorTest('what is chosen is there on the next visit, and a kerf makes sheets lar
   await openWhole(page, 'box.obj', obj({ points, triangles }));
   const image = page.locator('.preview[aria-busy="false"] img');
   const drawn = async () => {
-    const told = await page.locator('.sheets .figures div').filter({ has: page.locator('dt', { hasText: 'Drawing' }) }).locator('dd').textContent();
+    const told = await figure(page, '.sheets', 'Drawing').textContent();
     return String(told).split('×').map(parsed);
   };
   await page.locator('#end-sheets').click();
@@ -243,7 +236,7 @@ doorTest('what is chosen is there on the next visit, and a kerf makes sheets lar
   await page.locator('#save-now:enabled').waitFor();
   await page.waitForURL(/file=\d/);
   await page.reload();
-  await page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
+  await solvedWhole(page);
   await page.locator('#end-sheets').click();
   await image.waitFor();
   assert.deepEqual([await page.getByLabel('Kerf of a laser or saw, mm').inputValue(), await page.getByLabel('Paper', { exact: true }).inputValue(), await page.getByLabel('Tabs to glue').isChecked()], ['2', 'letter', false]);

@@ -8,7 +8,7 @@ import { brotliCompress, constants } from 'node:zlib';
 import { serve } from '../../tools/serve.mjs';
 import { writeSite } from '../../tools/site.mjs';
 import { pageTest, settled } from './support/page.mjs';
-import { dottedPhoto } from './support/photos.mjs';
+import { colouredPicture } from './support/photos.mjs';
 
 /** Waits for the pictures of a guide. @param {import('playwright-core').Page} page */
 async function loaded(page) {
@@ -19,11 +19,11 @@ async function loaded(page) {
 }
 
 pageTest('the site works under any path and without a network, and is renewed as a whole', async (page) => {
+  const context = page.context();
   const folder = await mkdtemp(join(tmpdir(), 'developable-site-'));
   await writeSite(folder, { quality: 1 });
   const server = await serve({ folders: { '/some/where/': folder } });
   try {
-    const context = await /** @type {import('playwright-core').Browser} */ (page.context().browser()).newContext();
     const visit = await context.newPage();
     /** @type {string[]} */
     const asked = [];
@@ -80,7 +80,7 @@ pageTest('the site works under any path and without a network, and is renewed as
       form.append(input);
       document.body.append(form);
       form.submit();
-    }, dottedPhoto({ page: 240, ground: 60 }, [1, 0.9, 0.8]).toString('base64'));
+    }, colouredPicture.toString('base64'));
     await shared.locator('#page-caption', { hasText: 'IMG 7' }).waitFor();
     await shared.close();
 
@@ -116,19 +116,18 @@ pageTest('the site works under any path and without a network, and is renewed as
     } finally {
       await again.close();
     }
-    await context.close();
   } finally {
+    await context.setOffline(false);
     await server.close().catch(() => {});
     await rm(folder, { recursive: true, force: true });
   }
-  // With options the browser is not the one that keeps a profile: contexts can be added to it.
-}, { serviceWorkers: 'allow' });
+}, { start: '' });
 
 /** The best compression saves a tenth more, and takes twenty times as long. */
 const QUICK = { params: { [constants.BROTLI_PARAM_QUALITY]: 6 } };
 
 /** What may be sent for the doors with their pictures, which need no solver, and for an example that is solved and drawn: requests, and kilobytes as the site sends them. */
-const LOADING_LIMITS = [{ start: '', seen: '.doors', requests: 7, kB: 149 }, { start: '#example=roof', seen: '#certificate', requests: 8, kB: 489 }];
+const LOADING_LIMITS = [{ start: '', seen: '.doors', requests: 7, kB: 149 }, { start: '#example=roof&size=100', seen: '#certificate', requests: 8, kB: 489 }];
 
 for (const { start, seen, requests, kB } of LOADING_LIMITS) {
   pageTest(`few requests and bytes come before ${seen}`, async (page) => {

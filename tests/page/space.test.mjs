@@ -4,7 +4,7 @@ import { noisyBox } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
 import { parsePng } from './support/photos.mjs';
-import { choose, doorTest, look, openWhole, pageTest, painted, sharedTest } from './support/page.mjs';
+import { choose, doorTest, look, openWhole, pageTest, painted, sharedTest, viewed } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -94,7 +94,7 @@ sharedTest('in space the surface is turned and divided', async (page) => {
   await page.getByRole('button', { name: 'From above' }).click();
 
   await choose(page.getByRole('radio', { name: 'Patches', exact: true }));
-  await page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
+  await viewed(page);
   await page.mouse.move(x + 40, y + 12);
   assert.match(await page.locator('#reading').innerText(), /patch \d/);
   assert.ok(correlation(above, await brightness(page, '#space-canvas')) < 0.9, 'in colours');

@@ -4,7 +4,7 @@ import { unzipSync } from 'fflate';
 import { meets } from '../js/support/phone.mjs';
 import { grid, npy, parseNpy, png16 } from './support/files.mjs';
 import { choose, downloaded, drop, dropAll, look, open, painted, runBy, settled, sharedDoorTest, sharedTest } from './support/page.mjs';
-import { camera, dots, dottedPhoto, png } from './support/photos.mjs';
+import { camera, colouredPicture, dots, dottedPhoto, png } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -17,7 +17,6 @@ const depthCamera = {
 /** Metres, `beside` the page what lies there. @param {number} beside */
 const depths = (beside) => grid(256, 192, (col, row) => meets(depthCamera, col, row)?.[0] ?? beside);
 const photo = dottedPhoto();
-const coloured = png({ width: 16, height: 16, data: Uint8Array.from({ length: 1024 }, (_, i) => [200, 100, 50, 255][i % 4]) });
 const { width, height, fx, fy, cx, cy } = camera;
 /** The photo's camera as OpenCV writes it. */
 const calibration = Buffer.from(`<?xml version="1.0"?>\n<opencv_storage>\n<image_width>${width}</image_width>\n<image_height>${height}</image_height>\n` +
@@ -96,7 +95,7 @@ sharedTest('a scan in OBJ brings its material and texture along', async (page) =
 }, { drawn: true });
 
 sharedDoorTest('heights in another unit, and levels that are guessed, are asked about', async (page) => {
-  await drop(page, 'holiday.png', coloured);
+  await drop(page, 'holiday.png', colouredPicture);
   await page.locator('#page-caption', { hasText: 'holiday' }).waitFor();
   await page.getByRole('alert').getByRole('button', { name: 'Heights instead?' }).click();
   await page.getByRole('alert').filter({ hasText: 'holiday.png' }).filter({ hasText: 'has no heights' }).waitFor();

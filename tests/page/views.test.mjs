@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { grid, npy } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, downloaded, look, open, pageTest, painted, runBy, saveAs, settled, sharedDoorTest, sharedTest } from './support/page.mjs';
+import { choose, downloaded, figure, look, open, openSheets, pageTest, painted, runBy, saveAs, settled, sharedDoorTest, sharedTest, sheetsDrawn, viewed } from './support/page.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -15,7 +15,7 @@ async function view(page, name) {
   // What is for specialists is in the drawer.
   if (!(await radio.isVisible())) await page.locator('#report-open').click();
   await choose(radio);
-  await page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
+  await viewed(page);
   await painted(page);
 }
 
@@ -24,10 +24,7 @@ async function view(page, name) {
  * @param {Page} page
  * @param {string | RegExp} name
  */
-async function told(page, name) {
-  const figure = page.locator('#about-view .figures div').filter({ has: page.locator('dt', { hasText: name }) });
-  return (await figure.locator('dd').innerText()).trim();
-}
+const told = async (page, name) => (await figure(page, '#about-view', name).innerText()).trim();
 
 /**
  * @param {Page} page
@@ -119,18 +116,15 @@ sharedTest('what cannot be laid flat whole is laid flat in pieces, which are sav
   assert.ok(parsed(await told(page, 'Largest strain')) <= 1);
   assert.ok((await look(page, '#result-picture')).covered > 0.2);
 
-  await page.locator('#end-sheets').click();
-  await page.locator('.preview[aria-busy="false"] img').waitFor();
-  const figure = (/** @type {string} */ name) => page.locator('.sheets .figures div').filter({ has: page.locator('dt', { hasText: name }) }).locator('dd');
-  const [wide] = (await figure('Drawing').textContent() ?? '').split('×').map(parsed);
+  await openSheets(page);
+  const [wide] = (await figure(page, '.sheets', 'Drawing').textContent() ?? '').split('×').map(parsed);
   const svg = await saveAs(page, 'SVG');
   assert.match(svg.bytes.toString(), /^(<\?xml[^>]*>\s*)?<svg/);
   assert.ok(Math.abs(Number(/width="([\d.]+)mm"/.exec(svg.bytes.toString())?.[1]) / wide - 1) < 0.01, 'in true size');
 
   // Twice as large takes about four times the paper.
-  await page.locator('#end-sheets').click();
-  await page.locator('.preview[aria-busy="false"] img').waitFor();
-  const pages = async () => parsed(await figure('Pages').textContent() ?? '');
+  await openSheets(page);
+  const pages = async () => parsed(await figure(page, '.sheets', 'Pages').textContent() ?? '');
   const before = await pages();
   const side = page.getByLabel('Longer side when finished');
   const doubled = 2 * Number(await side.inputValue());
@@ -141,7 +135,7 @@ sharedTest('what cannot be laid flat whole is laid flat in pieces, which are sav
     assert.ok(await page.locator('#save-now').isDisabled());
   }
   await side.fill(String(doubled));
-  await figure('Drawing').filter({ hasNotText: String(Math.round(wide)) }).waitFor({ state: 'attached' });
+  await figure(page, '.sheets', 'Drawing').filter({ hasNotText: String(Math.round(wide)) }).waitFor({ state: 'attached' });
   assert.ok(await pages() > 2 * before, `${await pages()} pages instead of ${before}`);
   // From the change on, what was drawn before cannot be saved.
   assert.ok(await page.getByLabel('Paper', { exact: true }).evaluate((/** @type {HTMLSelectElement} */ paper) => {
@@ -159,8 +153,7 @@ sharedTest('what cannot be laid flat whole is laid flat in pieces, which are sav
   await page.locator('#save-size', { hasText: /^Saved .*pdf/ }).waitFor();
   const again = await saveAs(page, 'SVG');
   const twice = Number(/width="([\d.]+)mm"/.exec(again.bytes.toString())?.[1]);
-  await page.locator('#end-sheets').click();
-  await page.locator('.preview[aria-busy="false"] img').waitFor();
+  await openSheets(page);
   assert.equal(Number(await side.inputValue()), doubled, 'kept from save to save');
   assert.ok(twice > 1.8 * wide, `${twice} mm`);
   // Done without, as soon as it has begun, and asked for again.
@@ -175,7 +168,7 @@ sharedTest('what cannot be laid flat whole is laid flat in pieces, which are sav
   await page.getByLabel('Tab depth').fill('4.5');
   await page.locator('.sheets-options .said', { hasText: 'Cancelled' }).waitFor();
   await page.getByRole('button', { name: 'Cut the sheets' }).click();
-  await page.locator('.preview[aria-busy="false"] img').waitFor();
+  await sheetsDrawn(page);
   assert.equal(await page.locator('#cutting').isVisible(), false);
   assert.match((await saveAs(page, 'DXF')).bytes.toString(), /SECTION/);
 });

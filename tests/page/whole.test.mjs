@@ -4,7 +4,7 @@ import { readFile } from 'node:fs/promises';
 import { noisyBox, offBox, randomNumbers, SIDES } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
-import { choose, doorTest, dropAll, look, open, openFromOneSide, openWhole, painted, reported, saveAs, settled, sharedDoorTest, typeLambda, workBy } from './support/page.mjs';
+import { choose, doorTest, dropAll, figure, look, open, openFromOneSide, openSheets, openWhole, painted, reported, saveAs, settled, sharedDoorTest, sheetsDrawn, solvedWhole, typeLambda, workBy } from './support/page.mjs';
 import { parsePng, png } from './support/photos.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -16,20 +16,17 @@ const area = 2 * (a * b + b * c + c * a);
 /** @param {Page} page @param {string} [way] */
 async function solve(page, way = 'Whole mesh') {
   await choose(page.getByRole('radio', { name: way, exact: true }));
-  await done(page);
+  await solvedWhole(page);
 }
-
-/** @param {Page} page */
-const done = (page) => page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
 
 /** @param {Page} page @param {string} view */
 async function view(page, view) {
   await choose(page.locator(`input[name="view"][value="${view}"]`));
-  await done(page);
+  await solvedWhole(page);
 }
 
 /** @param {Page} page @param {string} name */
-const told = (page, name) => page.locator('#about-view .figures div').filter({ has: page.locator('dt', { hasText: name }) }).locator('dd').innerText();
+const told = (page, name) => figure(page, '#about-view', name).innerText();
 
 /** The lengths of the tube, and its radius. */
 const TUBE = { length: 3, radius: 1 };
@@ -165,22 +162,21 @@ doorTest('a closed mesh is solved whole, shown before and after, laid flat and s
   await page.locator('#result-picture').hover();
   const [, strain = ''] = /^strain \+?(−?[\d.]+)\s%$/.exec(await page.locator('#reading').innerText()) ?? [];
   assert.ok(Math.abs(parsed(strain)) < 3, `that of the triangle under the pointer: ${strain} %`);
-  await page.locator('#end-sheets').click();
-  await page.locator('.preview[aria-busy="false"] img').waitFor();
+  await openSheets(page);
   assert.match(await page.locator('.sheets .said').innerText(), /sheet.*fold/);
   // Metal does not come in pages.
   await workBy(page, '.preview[aria-busy="true"]', () => page.getByLabel('Pieces that fit one page').uncheck());
   /** @param {string} name */
-  const figure = (name) => page.locator('.sheets .figures div').filter({ has: page.locator('dt', { hasText: name }) }).locator('dd').textContent().then(String);
-  const [card, folds] = [parsed(await figure('Area')), parsed(await figure('To fold'))];
+  const ofSheets = (name) => figure(page, '.sheets', name).textContent().then(String);
+  const [card, folds] = [parsed(await ofSheets('Area')), parsed(await ofSheets('To fold'))];
   await page.getByLabel('Thickness, mm').waitFor({ state: 'hidden' });
   await page.getByLabel('Material').selectOption('metal');
   await page.getByLabel('Thickness, mm').fill('2');
-  await page.locator('.sheets .figures dd', { hasText: 'cm²' }).filter({ hasNotText: await figure('Area') }).waitFor({ state: 'attached' });
-  await page.locator('.preview[aria-busy="false"] img').waitFor();
+  await page.locator('.sheets .figures dd', { hasText: 'cm²' }).filter({ hasNotText: await ofSheets('Area') }).waitFor({ state: 'attached' });
+  await sheetsDrawn(page);
   // Of metal a bend by 90° takes a strip less: the setback on both sides, less the arc of its neutral line.
   const strip = 2 * (2 + 2) - ((2 + 0.44 * 2) * Math.PI) / 2;
-  const less = card - parsed(await figure('Area'));
+  const less = card - parsed(await ofSheets('Area'));
   assert.ok(Math.abs(less / (10 * folds * strip) - 1) < 0.15, `${less} cm² less, for folds of ${folds} m`);
   assert.equal(await page.getByLabel('Tabs to glue').isVisible(), false);
   assert.match((await saveAs(page, 'SVG')).bytes.toString(), /<svg[^]*<title>\s*box-developable\s*<\/title>/);
@@ -207,7 +203,7 @@ sharedDoorTest('a whole solve tells how far it is and can be done without; what 
   const progress = page.waitForFunction(() => /Solving, \d+ iterations/.test(document.querySelector('#running:not([hidden]) span')?.textContent ?? ''));
   await page.getByRole('button', { name: 'Solve', exact: true }).click();
   await progress;
-  await done(page);
+  await solvedWhole(page);
   assert.match(await page.locator('#verdict').innerText(), /^Done: the whole mesh/);
 
   // Cancelled, the next solve leaves the surface before.
@@ -219,7 +215,7 @@ sharedDoorTest('a whole solve tells how far it is and can be done without; what 
   });
   await page.locator('#verdict-detail', { hasText: 'You see the surface from before' }).waitFor();
   assert.ok(await page.locator('#end-file').isEnabled());
-  await done(page);
+  await solvedWhole(page);
   // One that is begun beside its sheets brings these back, and another file closes them.
   const dialog = page.locator('#save-dialog:has([aria-busy="false"] img) #save-now:enabled');
   await page.locator('#end-sheets').click();
@@ -263,7 +259,7 @@ doorTest('one side and the whole mesh show nothing of each other', async (page) 
   await page.locator('#verdict', { hasText: 'Cancelled.' }).waitFor();
   const unsolved = await look(page, '#space-canvas');
   await page.getByRole('button', { name: 'Solve', exact: true }).click();
-  await done(page);
+  await solvedWhole(page);
   assert.notEqual(await page.locator('#result-caption').innerText(), caption);
   await page.locator('#divider').press('End');
   const input = await look(page, '#space-canvas');
@@ -276,13 +272,13 @@ sharedDoorTest('another λ ends a view that is being prepared, and a whole solve
   await openWhole(page, 'box.obj', obj(box));
   const { about, isReported } = await actAtOnce(page, ['[name="view"][value="patches"]'], ['#lambda-value', '1e6']);
   assert.deepEqual([about, isReported], ['Appears when a run has ended.', false]);
-  await done(page);
+  await solvedWhole(page);
   assert.equal(await page.getByRole('alert').isVisible(), false);
   assert.ok(parsed(await told(page, 'Patches')) > 0);
   assert.equal(await page.locator('#result-caption').innerText(), 'λ = 1e6');
   const { busy } = await actAtOnce(page, ['#lambda-value', '1e7'], ['#running-cancel']);
   assert.equal(busy, 'true', 'with the view of the result from before');
-  await done(page);
+  await solvedWhole(page);
 
   await choose(page.getByRole('radio', { name: 'From one side', exact: true }));
   await settled(page);
@@ -366,7 +362,7 @@ sharedDoorTest('a whole mesh is solved with the λ that is chosen, which stands 
   await solvedBy(() => page.goForward(), /whole=1$/);
   await solvedBy(() => page.goForward(), /view=rulings$/);
   await page.reload();
-  await done(page);
+  await solvedWhole(page);
   await page.locator('#about-view .figures dt', { hasText: 'Longest' }).waitFor();
   assert.equal(await field.inputValue(), '1e9');
 
@@ -492,7 +488,7 @@ usemtl blue\nf 3/1 2/2 5/3\nf 2/1 1/2 5/3\nf 1/1 4/2 5/3\nf 1/1 2/2 3/3\nf 1/1 3
     'pyramid.obj': Buffer.from(text), 'pyramid.mtl': Buffer.from('newmtl red\nmap_Kd red.png\nnewmtl blue\nmap_Kd blue.png\n'),
     'red.png': filled([255, 0, 0]), 'blue.png': filled([0, 0, 255]),
   });
-  await done(page);
+  await solvedWhole(page);
   /** Places of the middle of the pixels in a colour, as shares of the picture's width. @param {0 | 2} channel */
   const middleOf = async (channel) => {
     await painted(page);

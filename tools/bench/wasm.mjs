@@ -3,9 +3,8 @@
  * counterpart of the native program in `benches/`.
  */
 import { readFile } from 'node:fs/promises';
-import { fit, init, load, read } from '../../pkg/direct.js';
+import { Solver, fit, init, load, read } from '../../pkg/direct.js';
 import solverGlue from '../../pkg/wasm/solver.js';
-import { restart } from './restart.mjs';
 import { fastest, optionsOf } from './task.mjs';
 
 /**
@@ -44,6 +43,26 @@ async function readInput({ file, lattice, spacing, noData }) {
 function cold(field, settings) {
   const surface = fit(field, optionsOf(settings));
   return { surface, seconds: surface.report.seconds.total };
+}
+
+/**
+ * A solve from where an earlier one has left the solver.
+ * @param {Field} field
+ * @param {import('./task.mjs').Settings} from
+ * @param {import('./task.mjs').Settings} to
+ */
+function restart(field, from, to) {
+  const solver = new Solver(field, optionsOf(from));
+  try {
+    while (solver.advance(50));
+    const start = performance.now();
+    solver.restart(optionsOf(to));
+    while (solver.advance(50));
+    const surface = solver.surface();
+    return { surface, seconds: (performance.now() - start) / 1000 };
+  } finally {
+    solver.dispose();
+  }
 }
 
 /** @returns {Measurement} */

@@ -21,6 +21,23 @@ export const withOrigin = (origin) =>
   `default-src 'none'; script-src 'self' 'wasm-unsafe-eval' ${origin}; connect-src ${origin}; worker-src blob:; img-src data:`;
 
 /**
+ * A page that collects what goes wrong on it: errors, console messages, breaches of the policy.
+ * @param {import('playwright-core').Browser} browser
+ * @param {string} url
+ */
+export async function openPage(browser, url) {
+  const page = await browser.newPage();
+  /** @type {string[]} */
+  const incidents = [];
+  page.on('pageerror', (error) => incidents.push(String(error)));
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type())) incidents.push(message.text());
+  });
+  await page.goto(url);
+  return { page, incidents };
+}
+
+/**
  * Opens a page and waits for what its app has found. Whatever else goes wrong there is a failure, too.
  * @param {string} executablePath
  * @param {string} url
@@ -30,14 +47,7 @@ export async function browse(executablePath, url, expected) {
   const args = ['--headless', '--no-sandbox', '--disable-gpu', '--no-first-run', '--disable-background-networking'];
   const browser = await chromium.launch({ executablePath, args });
   try {
-    const page = await browser.newPage();
-    /** @type {string[]} */
-    const incidents = [];
-    page.on('pageerror', (error) => incidents.push(String(error)));
-    page.on('console', (message) => {
-      if (['error', 'warning'].includes(message.type())) incidents.push(message.text());
-    });
-    await page.goto(url);
+    const { page, incidents } = await openPage(browser, url);
     await page.waitForFunction('globalThis.outcome !== undefined', null, { timeout: 20_000 }).catch(() => {});
     const late = 'new Promise((_, reject) => setTimeout(reject, 60000, new Error("no answer after a minute")))';
     const outcome = await page.evaluate(`Promise.race([globalThis.outcome, ${late}])`).catch((error) => error);

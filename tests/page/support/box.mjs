@@ -6,6 +6,12 @@
 /** Its lengths along x, y and z. */
 export const SIDES = /** @type {const} */ ([3, 2, 1.2]);
 
+/** A box of twelve triangles whose opposite corners are the origin and a place. @param {readonly number[]} sides @returns {Mesh} */
+export const cuboid = (sides) => ({
+  points: Array.from({ length: 8 }, (_, i) => /** @type {Place} */ (sides.map((side, k) => side * ((i >> k) & 1)))),
+  triangles: [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]].flatMap(([a, b, c, d]) => /** @type {Place[]} */ ([[a, b, c], [a, c, d]])),
+});
+
 /** Random numbers from −1 to 1, the same each time. */
 export function randomNumbers() {
   let seed = 1;

@@ -1,6 +1,7 @@
 /** Files of heights and meshes. */
 import { crc32, deflateSync } from 'node:zlib';
-import { init, load, writeImage, writePly } from '../../../pkg/direct.js';
+import { zipSync } from 'fflate';
+import { init, load, read, writeImage, writePly } from '../../../pkg/direct.js';
 
 await init();
 await load('files', 'meshes');
@@ -25,15 +26,9 @@ export const npy = (width, values) => Buffer.from(writeImage({ width, height: va
  * @param {Buffer} bytes
  */
 export function parseNpy(bytes) {
-  if (bytes.toString('latin1', 0, 6) !== '\x93NUMPY') throw new Error('no NPY magic');
-  const length = bytes[6] === 1 ? bytes.readUInt16LE(8) : bytes.readUInt32LE(8);
-  const start = bytes[6] === 1 ? 10 : 12;
-  const header = bytes.toString('latin1', start, start + length);
-  if (!header.includes("'<f8'")) throw new Error(`not 64-bit floats: ${header}`);
-  const [, rows, cols] = /\((\d+),\s*(\d+)[,\s]*\)/.exec(header) ?? [];
-  const data = bytes.subarray(start + length);
-  const values = Array.from({ length: data.length / 8 }, (_, i) => data.readDoubleLE(8 * i));
-  return { rows: Number(rows), cols: Number(cols), values };
+  const { format, dataType, height: rows, width: cols, data } = read(bytes, { assumeNoData: false });
+  if (format !== 'npy' || dataType !== 'f64') throw new Error(`not 64-bit floats: ${format} of ${dataType}`);
+  return { rows, cols, values: Array.from(data) };
 }
 
 /**
@@ -70,38 +65,9 @@ export function chunk(type, data) {
   return Buffer.concat([length, body, check]);
 }
 
-/**
- * NPZ: a ZIP of stored NPY files.
- * @param {Record<string, Buffer>} arrays
- */
-export function npz(arrays) {
-  const bodies = [];
-  const directory = [];
-  let offset = 0;
-  for (const [name, bytes] of Object.entries(arrays)) {
-    const path = Buffer.from(`${name}.npy`);
-    const common = Buffer.alloc(26);
-    // Version 2, no flags, stored, no time.
-    common.writeUInt16LE(20, 0);
-    common.writeUInt32LE(crc32(bytes), 10);
-    common.writeUInt32LE(bytes.length, 14);
-    common.writeUInt32LE(bytes.length, 18);
-    common.writeUInt16LE(path.length, 22);
-    const body = Buffer.concat([Buffer.from('PK\x03\x04'), common, path, bytes]);
-    const tail = Buffer.alloc(14);
-    tail.writeUInt32LE(offset, 10);
-    directory.push(Buffer.from('PK\x01\x02\x14\x00', 'latin1'), common, tail, path);
-    bodies.push(body);
-    offset += body.length;
-  }
-  const entries = Buffer.concat(directory);
-  const end = Buffer.alloc(18);
-  end.writeUInt16LE(bodies.length, 4);
-  end.writeUInt16LE(bodies.length, 6);
-  end.writeUInt32LE(entries.length, 8);
-  end.writeUInt32LE(offset, 12);
-  return Buffer.concat([...bodies, entries, Buffer.from('PK\x05\x06'), end]);
-}
+/** NPZ: a ZIP of stored NPY files. @param {Record<string, Buffer>} arrays */
+export const npz = (arrays) =>
+  Buffer.from(zipSync(Object.fromEntries(Object.entries(arrays).map(([name, bytes]) => [`${name}.npy`, bytes])), { level: 0 }));
 
 /** @typedef {{ points: (readonly [number, number, number])[], triangles: (readonly [number, number, number])[] }} Mesh */
 
@@ -116,3 +82,9 @@ export function obj({ points, triangles }) {
 
 /** PLY. @param {Mesh} mesh */
 export const ply = ({ points, triangles }) => Buffer.from(writePly({ positions: Float64Array.from(points.flat()), triangles: Uint32Array.from(triangles.flat()) }));
+
+/** Two triangles that lean. */
+export const ramp = obj({ points: [[0, 0, 0], [3, 0, 0], [3, 2, 1], [0, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]] });
+
+/** An OBJ without the vertex that a triangle names. */
+export const tornObj = Buffer.from('v 0 0 0\nv 1 0\nf 1 2 9\n');

@@ -1,6 +1,5 @@
 /** Tests on the page in Chromium, each on a fresh page that is watched all the time. */
 import assert from 'node:assert/strict';
-import { accessSync, constants } from 'node:fs';
 import { mkdtemp, readdir, rm } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -9,16 +8,9 @@ import { chromium } from 'playwright-core';
 import { isolation, serve } from '../../../tools/serve.mjs';
 import { bundlePage } from '../../../tools/site.mjs';
 import { pkg, www } from '../../../tools/util/paths.mjs';
+import { args, executablePath, skip } from '../../js/support/browser.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
-
-const executablePath = process.env.DEVELOPABLE_CHROME || '/usr/bin/chromium';
-const args = [
-  '--headless', '--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run',
-  '--disable-background-networking', '--disable-component-update', '--disable-sync',
-  // Tabs share a process, and the wasm that it has compiled.
-  '--process-per-site',
-];
 
 /** The page's first example, so small that it is solved at once: for tests of what is opened after it. */
 const SMALL_EXAMPLE = '#example=cylinder&size=64&noise=0.02';
@@ -34,14 +26,9 @@ const PATIENCE = 60_000;
 
 const VIEWPORT = { width: 1280, height: 900 };
 
-/** Without a graphics card each frame of a movement costs as much as a test. @type {{ reducedMotion: 'reduce' }} */
-const STILL = { reducedMotion: 'reduce' };
-
 /** All that the page may keep in the browser, by its names in Chromium's protocol. */
 const STORAGE_TYPES = 'cookies,local_storage,indexeddb,cache_storage,service_workers,file_systems';
 
-/** @type {Promise<import('playwright-core').Browser> | undefined} */
-let browser;
 /** The browser with a folder of its own, whose caches make each start but the first cheaper. @type {Promise<import('playwright-core').BrowserContext> | undefined} */
 let shared;
 /** @type {string | undefined} */
@@ -51,8 +38,7 @@ let ownBundle;
 /** @type {Awaited<ReturnType<typeof serve>>} */
 let server;
 
-const missing = browserMissing();
-if (!missing) {
+if (!skip) {
   before(async () => {
     // `npm test` has bundled it for all files.
     const bundle = process.env.DEVELOPABLE_PAGE || (ownBundle = await mkdtemp(join(tmpdir(), 'developable-page-')));
@@ -66,25 +52,21 @@ if (!missing) {
   });
   after(async () => {
     await (await shared)?.close();
-    await (await browser)?.close();
     await server?.close();
     for (const folder of [profile, ownBundle]) if (folder) await rm(folder, { recursive: true, force: true, maxRetries: 5 });
   });
 }
 
-/**
- * A browser context for one test: the shared one where no options are given.
- * @param {import('playwright-core').BrowserContextOptions} options
- */
-async function contextWith(options) {
-  if (Object.keys(options).length === 0) return (shared ??= sharedContext());
-  browser ??= chromium.launch({ executablePath, args });
-  return (await browser).newContext({ viewport: VIEWPORT, ...STILL, ...options });
-}
+/** The browser of all tests. */
+const sharedContext = () => (shared ??= launched());
 
-async function sharedContext() {
+async function launched() {
   profile = await mkdtemp(join(tmpdir(), 'developable-profile-'));
-  const context = await chromium.launchPersistentContext(profile, { executablePath, args, viewport: VIEWPORT, ...STILL });
+  const context = await chromium.launchPersistentContext(profile, {
+    // Tabs share a process, and the wasm that it has compiled; without a graphics card each frame of a movement costs as much as a test.
+    executablePath, args: [...args, '--enable-unsafe-swiftshader', '--process-per-site'], viewport: VIEWPORT, reducedMotion: 'reduce',
+  });
+  context.setDefaultTimeout(PATIENCE);
   // The first tab keeps that process and its wasm for the tabs of all tests.
   const [first] = context.pages();
   await first.goto(server.url);
@@ -106,28 +88,17 @@ async function forget(page) {
   await protocol.detach();
 }
 
-/** @returns {string | false} why the tests cannot run */
-function browserMissing() {
-  try {
-    accessSync(executablePath, constants.X_OK);
-    return false;
-  } catch {
-    assert.notEqual(process.env.CI, 'true', `in CI the page has to be tested: ${executablePath} is no browser`);
-    return `no browser at ${executablePath}`;
-  }
-}
-
 /**
  * A test on a page of its own. It also fails when the page writes to the console, throws,
  * breaks its security policy (which Chromium reports as errors) or asks any other origin.
  * @param {string} name
  * @param {(page: Page) => Promise<void>} body
- * @param {import('playwright-core').BrowserContextOptions & { drawn?: boolean, moving?: boolean, size?: import('playwright-core').ViewportSize, pixels?: number, phone?: boolean, start?: string, sources?: boolean, unfolded?: string[] }} [options]
+ * @param {{ drawn?: boolean, moving?: boolean, size?: import('playwright-core').ViewportSize, pixels?: number, phone?: boolean, start?: string, sources?: boolean, unfolded?: string[] }} [options]
  *   whether there is WebGL, which takes long without a graphics card: not unless said otherwise; whether anything moves by itself:
  *   not unless said otherwise; the size of the page; how many pixels of the device each of its pixels is wide; whether it is on a phone, under a finger; the part of the address after the #, which is a small example unless said
  *   otherwise; whether the page is served file by file; which parts are unfolded, all that are remembered unless said otherwise
  */
-export function pageTest(name, body, { drawn = false, moving = false, size, pixels = 1, phone = false, start = SMALL_EXAMPLE, sources = false, unfolded = ALL_PARTS, ...options } = {}) {
+export function pageTest(name, body, { drawn = false, moving = false, size, pixels = 1, phone = false, start = SMALL_EXAMPLE, sources = false, unfolded = ALL_PARTS } = {}) {
   inChromium(name, async (page) => {
     const incidents = watch(page);
     if (moving) await page.emulateMedia({ reducedMotion: 'no-preference' });
@@ -141,7 +112,7 @@ export function pageTest(name, body, { drawn = false, moving = false, size, pixe
     if (drawn && start) await page.waitForFunction(() => document.querySelector('canvas#space-canvas:not([width="300"], :not([width]))'));
     await body(page);
     assert.deepEqual(incidents, []);
-  }, options);
+  });
 }
 
 /**
@@ -161,7 +132,7 @@ const sharedTabs = new Map();
  * @param {{ drawn?: boolean, start?: string }} [options]
  */
 export function sharedTest(name, body, { drawn = false, start = SMALL_EXAMPLE } = {}) {
-  test(name, { skip: missing, timeout: 4 * PATIENCE }, async () => {
+  test(name, { skip, timeout: 4 * PATIENCE }, async () => {
     const tab = sharedTabs.get(drawn) ?? await newTab(drawn);
     const { page, incidents } = tab;
     // Where a test fails, the next one has a new tab.
@@ -195,9 +166,7 @@ export const sharedDoorTest = (name, body, options) => sharedTest(name, body, { 
 
 /** A tab for several tests. @param {boolean} drawn whether there is WebGL */
 async function newTab(drawn) {
-  const context = await contextWith({});
-  context.setDefaultTimeout(PATIENCE);
-  const page = await context.newPage();
+  const page = await (await sharedContext()).newPage();
   await forget(page);
   const incidents = watch(page);
   await page.addInitScript((parts) => localStorage.setItem('developable: unfolded', JSON.stringify(parts)), ALL_PARTS);
@@ -251,23 +220,18 @@ export function brokenStartTest(name, spoil, body) {
  * A test in a tab of its own, which shows nothing yet and finds nothing kept.
  * @param {string} name
  * @param {(page: Page) => Promise<void>} body
- * @param {import('playwright-core').BrowserContextOptions} [options]
  */
-export function inChromium(name, body, options = {}) {
-  test(name, { skip: missing, timeout: 4 * PATIENCE }, async () => {
-    const context = await contextWith(options);
-    context.setDefaultTimeout(PATIENCE);
+export function inChromium(name, body) {
+  test(name, { skip, timeout: 4 * PATIENCE }, async () => {
+    const context = await sharedContext();
     const page = await context.newPage();
     try {
       await forget(page);
       await body(page);
     } finally {
-      if (context !== await shared) await context.close();
-      else {
-        // With its last tab the browser would end.
-        const kept = [context.pages()[0], ...[...sharedTabs.values()].map((tab) => tab.page)];
-        await Promise.all(context.pages().filter((one) => !kept.includes(one)).map((one) => one.close()));
-      }
+      // With its last tab the browser would end.
+      const kept = [context.pages()[0], ...[...sharedTabs.values()].map((tab) => tab.page)];
+      await Promise.all(context.pages().filter((one) => !kept.includes(one)).map((one) => one.close()));
     }
   });
 }
@@ -404,6 +368,34 @@ export async function reported(page, name) {
 }
 
 /**
+ * The value beside a name among the figures of a part of the page.
+ * @param {Page} page
+ * @param {string} part its selector
+ * @param {string | RegExp} name
+ */
+export const figure = (page, part, name) =>
+  page.locator(`${part} .figures div`).filter({ has: page.locator('dt', { hasText: name }) }).locator('dd');
+
+/** Waits for the view that was chosen. @param {Page} page */
+export const viewed = (page) => page.locator('#stage[data-busy="false"]:has(#analysis)').waitFor({ state: 'attached' });
+
+/** Waits until a mesh is solved whole. @param {Page} page */
+export const solvedWhole = (page) => page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
+
+/** Opens the dialog of sheets, and waits for their picture, which is returned. @param {Page} page */
+export async function openSheets(page) {
+  await page.locator('#end-sheets').click();
+  return sheetsDrawn(page);
+}
+
+/** The picture of the sheets, once it is drawn. @param {Page} page */
+export async function sheetsDrawn(page) {
+  const image = page.locator('.preview[aria-busy="false"] img');
+  await image.waitFor();
+  return image;
+}
+
+/**
  * What a canvas, or the side of the picture with the input or the result, shows, as a hash and as the mean difference in brightness between
  * horizontal neighbours that are both covered.
  * @param {Page} page
@@ -485,8 +477,7 @@ export async function open(page, name, bytes) {
 export async function openWhole(page, name, bytes) {
   await drop(page, name, bytes);
   await page.locator('#mesh-name', { hasText: name.replace(/\.\w+$/, '') }).waitFor();
-  await page.locator('[data-whole]').waitFor();
-  await page.locator('[data-whole] #stage[data-busy="false"]').waitFor();
+  await solvedWhole(page);
 }
 
 /**

@@ -59,6 +59,18 @@ export const png = (pixels) => Buffer.from(writePhoto(pixels));
 /** The pixels of a PNG. @param {Buffer} bytes @returns {Pixels} */
 export const parsePng = (bytes) => readPhoto(bytes);
 
+export const LEVEL_WIDTH = 400;
+/** An A4 page with an orange square, seen from straight above, which is flattened in half the time of a curled one. */
+export const levelPhoto = png({ width: LEVEL_WIDTH, height: 300, data: new Uint8Array(4 * LEVEL_WIDTH * 300).map((_, i) => {
+  const [x, y, channel] = [(i >> 2) % LEVEL_WIDTH, Math.floor((i >> 2) / LEVEL_WIDTH), i % 4];
+  if (channel === 3) return 255;
+  if (x >= 180 && x < 220 && y >= 120 && y < 160) return [200, 120, 40][channel];
+  return x >= 120 && x < 280 && y >= 30 && y < 256 ? 230 : 60;
+}) });
+
+/** A small picture in one colour, in which soon no page is found. */
+export const colouredPicture = png({ width: 16, height: 16, data: Uint8Array.from({ length: 1024 }, (_, i) => [200, 100, 50, 255][i % 4]) });
+
 /**
  * How far the dots of a flat image are from where they are on the page: root of the mean square after the best
  * similarity, as a share of the page's width.

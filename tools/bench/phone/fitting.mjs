@@ -11,21 +11,15 @@
  * @property {number} rms distance that is left
  */
 
-/** @param {readonly Pair[]} pairs */
-function moments(pairs) {
-  const mean = [0, 1, 2, 3].map((k) => pairs.reduce((sum, pair) => sum + pair[k], 0) / pairs.length);
-  const product = (/** @type {number} */ k, /** @type {number} */ l) =>
-    pairs.reduce((sum, pair) => sum + (pair[k] - mean[k]) * (pair[l] - mean[l]), 0) / pairs.length;
-  return { mean, product };
-}
-
 /**
  * By least squares, without reflection: in complex numbers a quotient.
  * @param {readonly Pair[]} pairs
  * @returns {Similarity}
  */
 export function similarity(pairs) {
-  const { mean, product } = moments(pairs);
+  const mean = [0, 1, 2, 3].map((k) => pairs.reduce((sum, pair) => sum + pair[k], 0) / pairs.length);
+  const product = (/** @type {number} */ k, /** @type {number} */ l) =>
+    pairs.reduce((sum, pair) => sum + (pair[k] - mean[k]) * (pair[l] - mean[l]), 0) / pairs.length;
   const [from, to] = [product(0, 0) + product(1, 1), product(2, 2) + product(3, 3)];
   const [re, im] = [product(0, 2) + product(1, 3), product(0, 3) - product(1, 2)];
   const [a, b] = [re / from, im / from];

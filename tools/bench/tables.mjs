@@ -4,7 +4,6 @@ import { conic } from './comparisons/conic.mjs';
 import { gaps } from './comparisons/gaps.mjs';
 import { meshes } from './comparisons/meshes.mjs';
 import { memory } from './comparisons/memory.mjs';
-import { nativeAndWasm } from './comparisons/native-and-wasm.mjs';
 import { pymeshlab } from './comparisons/pymeshlab.mjs';
 import { restarts } from './comparisons/restarts.mjs';
 import { schedules } from './comparisons/schedules.mjs';
@@ -20,7 +19,6 @@ export const document = { path: 'benches/README.md', title: 'Benchmarks' };
 export const documentTables = {
   schedules,
   conic,
-  'native-and-wasm': nativeAndWasm,
   sizes,
   memory,
   meshes,

@@ -13,7 +13,6 @@ import { asEdges, asFoundPage, edgesAndOptions, pageOptions, plainEdges } from '
 import { asSurface, ofPlainCalls } from './plain-calls.js';
 import { fileOf as photoFileOf, photoOf } from './photo-source.js';
 import { asBook, placedOptions, printOptions } from './sheet-input.js';
-import { asText } from './values.js';
 import { transfer } from './wire.js';
 
 /**
@@ -122,13 +121,6 @@ export const CALLS = {
       return [field, { ...options, reference: reference === undefined ? undefined : asField(reference) }];
     },
   },
-  picture: {
-    parts: ['unroll'],
-    send(input, given) {
-      const options = placedOptions('picture', input, given);
-      return [handedOver(asField(input)), options];
-    },
-  },
   fitCylinder: { parts: ['solver'], send: (input) => [handedOver(asHeights(input))] },
   pattern: {
     parts: ({ textures }) => ['patterns', ...(textures ? forPictures(textures) : [])],
@@ -169,13 +161,6 @@ export const CALLS = {
   findPage: {
     parts: (photo) => ['unroll', ...partsOfPhoto(photo)],
     send: async (photo) => [sentPhoto(await photoOf(photo))],
-  },
-  example: {
-    parts: ['solver'],
-    send(name, given) {
-      const options = optionsOf('example', given);
-      return [asText('OPTION', 'the name of the example', name), options];
-    },
   },
 };
 

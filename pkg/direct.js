@@ -13,7 +13,7 @@ import { makeDisposable } from './platform.js';
 import { PROGRESS_INTERVAL, answerOf } from './progress.js';
 import { Steps } from './steps.js';
 import { asBook, asPhoto, placeOf, placedOptions, printOptions } from './sheet-input.js';
-import { asText, isRecord, reading, record, show } from './values.js';
+import { isRecord, reading, record, show } from './values.js';
 
 export { parseCamera } from './camera-file.js';
 export { DevelopableError } from './errors.js';
@@ -34,11 +34,12 @@ export async function load(...parts) {
 }
 
 export const {
-  writeObj, writeMtl, writePly, writeStl, patches, rulings, unroll, recognizeMesh, writeSvg, writePdf, writeDxf,
+  example, formatOf, npzArrays, writeObj, writeMtl, writePly, writeStl, patches, rulings, unroll, picture, recognizeMesh, writeSvg, writePdf, writeDxf,
 } = /** @type {Pick<typeof import('./direct.js'), import('./plain-calls.js').PlainCallName>} */ (ofPlainCalls((name, part, check) => {
   const call = (/** @type {any} */ input, /** @type {object | undefined} */ given) => {
     const [taken, { onProgress, ...options } = {}] = check(input, given);
-    return partOf(part(taken)).watched((wasm) => wasm[name](taken, options), onProgress);
+    const file = part(taken);
+    return (file === 'solver' ? /** @type {import('./instance.js').Instance<any>} */ (solver) : partOf(file)).watched((wasm) => wasm[name](taken, options), onProgress);
   };
   return Object.defineProperty(call, 'name', { value: name });
 }));
@@ -170,18 +171,6 @@ export function read(bytes, given) {
     : files.call((wasm) => wasm.read(file, options));
 }
 
-/** @type {typeof import('./direct.js').formatOf} */
-export function formatOf(bytes) {
-  const file = asBytes(bytes);
-  return files.call((wasm) => wasm.formatOf(file));
-}
-
-/** @type {typeof import('./direct.js').npzArrays} */
-export function npzArrays(bytes) {
-  const file = asBytes(bytes);
-  return images.call((wasm) => wasm.npzArrays(file));
-}
-
 /** @type {typeof import('./direct.js').writeImage} */
 export function writeImage(input, given) {
   const { format = 'npy' } = optionsOf('writeImage', given);
@@ -245,13 +234,6 @@ export function analyze(input, given) {
   const { reference, ...options } = /** @type {import('./types.js').AnalyzeOptions} */ (optionsOf('analyze', given));
   const other = reference === undefined ? undefined : asField(reference);
   return surfaces.call((wasm) => wasm.analyze(field, other, options));
-}
-
-/** @type {typeof import('./direct.js').picture} */
-export function picture(input, given) {
-  const options = placedOptions('picture', input, given);
-  const field = asField(input);
-  return surfaces.call((wasm) => wasm.picture(field, options));
 }
 
 /** @type {typeof import('./direct.js').draw} */
@@ -353,13 +335,6 @@ export function writeBook(pages, given) {
     { ...page, texts: words.map(({ text }) => text), boxes: Float64Array.from(words.flatMap(({ box }) => box)) }));
   const options = optionsOf('writeBook', given);
   return unshared(files.call((wasm) => wasm.writeBook(book, options)));
-}
-
-/** @type {typeof import('./direct.js').example} */
-export function example(name, given) {
-  const own = asText('OPTION', 'the name of the example', name);
-  const options = optionsOf('example', given);
-  return solver.call((wasm) => wasm.example(own, options));
 }
 
 /**

@@ -2,14 +2,18 @@
  * Calls that are about one thing and no more: it is checked, and goes with the options to the function of the same name in one wasm
  * file, here or in the worker. A call of this kind is one row, from which both APIs are made.
  */
-import { asField } from './input.js';
+import { asBytes, asField } from './input.js';
 import { asMeshOrLattice, isMesh, wholeOf } from './mesh-input.js';
 import { OPTIONS, optionsOf } from './options.js';
+import { placedOptions } from './sheet-input.js';
 import { asText, plainCopy } from './values.js';
 
-/** @typedef {import('./direct.js').PartName} PartName */
-/** @typedef {readonly [part: PartName, take: (input: any) => any]} Taken the wasm file, and what checks and copies the input */
-/** @typedef {Taken | { heights: PartName, mesh: PartName }} PlainCall a call of any surface has two wasm files */
+/** @typedef {import('./calls.js').Part} Part */
+/**
+ * The wasm file, what checks and copies the input, and what does so with the options, where these need more than their table.
+ * @typedef {readonly [part: Part, take: (input: any) => any, options?: (input: any, given: any) => any]} Taken
+ * @typedef {Taken | { heights: Part, mesh: Part }} PlainCall a call of any surface has two wasm files
+ */
 
 /** @param {import('./types.js').Mesh} mesh */
 const shapeOf = (mesh) => wholeOf(mesh).shape;
@@ -17,9 +21,14 @@ const shapeOf = (mesh) => wholeOf(mesh).shape;
 export const asSurface = (input) => (isMesh(input) ? shapeOf(input) : asField(input, ', or a mesh ({ positions, triangles })'));
 /** @param {unknown} drawing */
 const asDrawing = (drawing) => plainCopy('the drawing', drawing);
+/** @param {unknown} name */
+const asExample = (name) => asText('OPTION', 'the name of the example', name);
 
 /** @satisfies {Record<string, PlainCall>} */
 export const PLAIN_CALLS = {
+  example: ['solver', asExample],
+  formatOf: ['files', asBytes],
+  npzArrays: ['images', asBytes],
   writeObj: ['files', asMeshOrLattice],
   writeMtl: ['files', (picture) => asText('INPUT', "the picture's name", picture)],
   writePly: ['meshes', asMeshOrLattice],
@@ -27,6 +36,7 @@ export const PLAIN_CALLS = {
   patches: { heights: 'unroll', mesh: 'patterns' },
   rulings: { heights: 'unroll', mesh: 'fitmesh' },
   unroll: { heights: 'unroll', mesh: 'patterns' },
+  picture: ['unroll', asField, (input, given) => placedOptions('picture', input, given)],
   recognizeMesh: ['patterns', shapeOf],
   writeSvg: ['patterns', asDrawing],
   writePdf: ['patterns', asDrawing],
@@ -41,7 +51,7 @@ const surfaceCall = (call, input) => /** @type {'unroll' | 'unrollMesh'} */ (isM
 /**
  * Makes something of each of these calls.
  * @template T
- * @param {(name: PlainCallName, part: (input: any) => PartName, check: (input: any, given?: object) => [taken: any, options: any]) => T} make
+ * @param {(name: PlainCallName, part: (input: any) => Part, check: (input: any, given?: object) => [taken: any, options: any]) => T} make
  *   `check`: returns checked copies of the input and of the options, none for a call without options
  * @returns {Record<PlainCallName, T>}
  */
@@ -54,10 +64,8 @@ export function ofPlainCalls(make) {
         return [asSurface(input), options];
       })];
     }
-    const [part, take] = call;
-    return [name, make(name, () => part, (input, given) => {
-      const options = Object.hasOwn(OPTIONS, name) ? optionsOf(/** @type {'unroll'} */ (name), given) : undefined;
-      return [take(input), options];
-    })];
+    const own = Object.hasOwn(OPTIONS, name) ? (/** @type {any} */ _, /** @type {any} */ given) => optionsOf(/** @type {'unroll'} */ (name), given) : undefined;
+    const [part, take, options = own] = call;
+    return [name, make(name, () => part, (input, given) => [take(input), options?.(input, given)])];
   })));
 }

@@ -15,7 +15,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { extname, join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
-import { itemsOf } from './docs/items.mjs';
+import { TEST_ITEM } from './docs/modules.mjs';
 import { root } from './util/paths.mjs';
 import { main, Problem } from './util/problem.mjs';
 
@@ -30,6 +30,11 @@ const GIVEN = /\bEq\. \d+|\bApp\. \w|\bthe paper's|\b(?:formats?|specification|p
 
 /** First line of a file that a program has made. */
 const GENERATED = /^\/\*\* [^\n]*\bMade of\b[^\n]* by `tools\//;
+
+/** A constant in Rust, with the documentation above it. */
+const RUST_CONSTANT = /^((?: *\/\/\/.*\n)*)(?: *(?:#\[|\/\/(?!\/)).*\n)* *(?:pub(?:\([^)]*\))? )?(?:const|static) (\w+):[^=]*=\s*([^]*?);/gm;
+/** One in JavaScript likewise. */
+const SCRIPT_CONSTANT = /^(?:\/\*\*((?:(?!\*\/)[^])*)\*\/\n)?(?:export )?const ([A-Z][A-Z0-9_]*) = ([^;]*);/gm;
 
 const BENCHES = /`(benches\/[\w-]+\.md)`(?:, ([A-Z][\w -]*))?/;
 
@@ -57,17 +62,12 @@ const isNumeric = (value) => /^[-[({\s]*(?:\w+\s*[({[]\s*|\w+:\s*|1\s*<<\s*)*[-\
 /** @param {string} path @param {string} text @returns {Constant[]} */
 export function constantsOf(path, text) {
   const room = roomOf(path);
-  if (path.endsWith('.rs')) {
-    const lines = text.split('\n');
-    return itemsOf(path, text).filter(({ kind }) => kind === 'const').flatMap(({ name, doc, line }) => {
-      const [, value = ''] = /=\s*([^]*?);/.exec(lines.slice(line - 1, line + 11).join('\n')) ?? [];
-      return isNumeric(value) ? [{ room, path, line, name, value: value.replace(/\s+/g, ' '), by: chosenBy(doc.join(' ')) }] : [];
-    });
-  }
-  const found = text.matchAll(/^(?:\/\*\*((?:(?!\*\/)[^])*)\*\/\n)?(?:export )?const ([A-Z][A-Z0-9_]*) = ([^;]*);/gm);
+  // Tests are left out, and lines keep their numbers.
+  const code = path.endsWith('.rs') ? text.replace(TEST_ITEM, (tests) => tests.replace(/[^\n]+/g, '')) : text;
+  const found = code.matchAll(path.endsWith('.rs') ? RUST_CONSTANT : SCRIPT_CONSTANT);
   return Array.from(found).filter(([, , , value]) => isNumeric(value)).map(({ 0: whole, 1: doc = '', 2: name, 3: value, index }) => {
-    const line = text.slice(0, index + whole.indexOf('const ')).split('\n').length;
-    return { room, path, line, name, value: value.replace(/\s+/g, ' '), by: chosenBy(doc.replace(/\s*\n \* ?/g, ' ')) };
+    const line = code.slice(0, index + whole.search(/\b(?:const|static) /)).split('\n').length;
+    return { room, path, line, name, value: value.replace(/\s+/g, ' '), by: chosenBy(doc.replace(/\s*\n *(?:\*|\/\/\/) ?|^ *\/\/\/ ?/g, ' ')) };
   });
 }
 

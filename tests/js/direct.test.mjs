@@ -6,7 +6,7 @@ import * as direct from '../../pkg/direct.js';
 import { initSync, loadSync } from '../../pkg/sync.js';
 import { error } from './support/error.mjs';
 import { filesWasmFile, wasmFile } from './support/paths.mjs';
-import { cylinder, deviation, endless, image, lattice, noisy, plane } from './support/shapes.mjs';
+import { cylinder, deviation, endless, image, lattice, noisy, placeOf, plane } from './support/shapes.mjs';
 
 const ramp = image(12, 10, plane);
 
@@ -41,12 +41,9 @@ test('a plane comes back', () => {
   assert.equal(surface.report.stopReason, 'rounding');
   assert.ok(surface.image);
   assert.ok(deviation(surface.image.data, ramp.data) < 1e-9);
-  const { rows, cols, spacing, origin } = surface;
-  assert.equal(surface.heights.length, rows * cols);
+  assert.equal(surface.heights.length, surface.rows * surface.cols);
   for (const [i, z] of surface.heights.entries()) {
-    const row = Math.floor(i / cols);
-    const x = origin[0] + ((i % cols) - (row % 2) / 2) * spacing;
-    const y = origin[1] - row * spacing * Math.sqrt(0.75);
+    const [x, y] = placeOf(surface, i);
     assert.ok(Number.isNaN(z) || Math.abs(z - plane(x, y)) < 1e-9, `vertex ${i}`);
   }
 });

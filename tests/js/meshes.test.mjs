@@ -8,6 +8,7 @@ import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
 import { error } from './support/error.mjs';
+import { gridMesh, placeOf } from './support/shapes.mjs';
 
 after(() => developable.dispose());
 
@@ -15,17 +16,7 @@ after(() => developable.dispose());
 const file = (name) => readFile(new URL(`../data/meshes/${name}`, import.meta.url));
 
 /** A square of the plane x + 2y + 4z = 1 that stands in the mesh's own axes, finely cut. */
-function tilted(cells = 12) {
-  const n = cells + 1;
-  const positions = new Float64Array(3 * n * n);
-  const triangles = [];
-  for (let i = 0; i < n * n; i++) {
-    const [x, y] = [(i % n) / cells, Math.floor(i / n) / cells];
-    positions.set([x, y, (1 - x - 2 * y) / 4], 3 * i);
-    if (x < 1 && y < 1) triangles.push(i, i + 1, i + n + 1, i, i + n + 1, i + n);
-  }
-  return { positions, triangles: Uint32Array.from(triangles) };
-}
+const tilted = (cells = 12) => gridMesh(cells + 1, cells + 1, (col, row) => [col / cells, row / cells, (1 - (col + 2 * row) / cells) / 4]);
 
 /** @param {string} text @returns {number[][]} */
 const verticesOf = (text) => text.split('\n').filter((line) => line.startsWith('v '))
@@ -158,12 +149,11 @@ test('damaged files leave the wasm alive', async () => {
 test('a quarter of a million triangles', () => {
   const mesh = tilted(356);
   assert.ok(mesh.triangles.length > 750_000);
-  const { heights, rows, cols, spacing, origin } = direct.sampleMesh(mesh, { resolution: 215 });
+  const sampled = direct.sampleMesh(mesh, { resolution: 215 });
+  const { heights, rows, cols } = sampled;
   assert.ok(heights.length > 37_000);
   const off = heights.map((z, i) => {
-    const row = Math.floor(i / cols);
-    const x = origin[0] + ((i % cols) - (row % 2) / 2) * spacing;
-    const y = origin[1] - row * spacing * Math.sqrt(0.75);
+    const [x, y] = placeOf(sampled, i);
     return 4 * z - (1 - x - 2 * y);
   });
   assert.ok(off.every((value) => !(Math.abs(value) > 1e-9)));
@@ -172,12 +162,9 @@ test('a quarter of a million triangles', () => {
 
 test('the command fits a mesh in its own axes', async () => {
   const folder = await temporaryFolder();
-  const { positions, triangles } = tilted();
-  const lines = [];
-  for (let i = 0; i < positions.length; i += 3) lines.push(`v ${positions.slice(i, i + 3).join(' ')}`);
-  for (let i = 0; i < triangles.length; i += 3) lines.push(`f ${[...triangles.slice(i, i + 3)].map((v) => v + 1).join(' ')}`);
-  await writeFile(join(folder, 'plane.obj'), lines.join('\n'));
-  await writeFile(join(folder, 'cloud.obj'), lines.filter((line) => line.startsWith('v')).join('\n'));
+  const obj = Buffer.from(direct.writeObj(tilted())).toString();
+  await writeFile(join(folder, 'plane.obj'), obj);
+  await writeFile(join(folder, 'cloud.obj'), obj.split('\n').filter((line) => line.startsWith('v ')).join('\n'));
   await writeFile(join(folder, 'bad.ply'), 'ply\n');
   await writeFile(join(folder, 'image.npy'), 'none');
   /** @param {string} args */

@@ -15,6 +15,7 @@ import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
 import { error } from './support/error.mjs';
+import { placeOf } from './support/shapes.mjs';
 
 after(() => developable.dispose());
 await Promise.all([direct.init(), direct.load('files', 'meshes')]);
@@ -26,10 +27,7 @@ const height = (x, y) => 0.5 * x + 2 * y;
 const [rows, cols, spacing, origin] = [5, 6, 0.25, /** @type {[number, number]} */ ([1, 2])];
 const count = rows * cols;
 const missing = 5;
-const plane = Array.from({ length: count }, (_, i) => {
-  const row = Math.floor(i / cols);
-  return [origin[0] + ((i % cols) - (row % 2) / 2) * spacing, origin[1] - row * spacing * Math.sqrt(0.75)];
-});
+const plane = Array.from({ length: count }, (_, i) => placeOf({ cols, spacing, origin }, i));
 const field = {
   rows, cols, spacing, origin,
   heights: Float64Array.from(plane, ([x, y], i) => (i === missing ? NaN : height(x, y))),

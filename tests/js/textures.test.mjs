@@ -8,6 +8,7 @@ import * as direct from '../../pkg/direct.js';
 import { run, temporaryFolder } from './support/command.mjs';
 import { error } from './support/error.mjs';
 import { withExif } from './support/exif.mjs';
+import { placeOf } from './support/shapes.mjs';
 
 after(() => developable.dispose());
 await Promise.all([direct.init(), direct.load('files', 'images', 'meshes', 'patterns')]);
@@ -30,14 +31,14 @@ const shade = (x, y) => [(32 * (8 * (x / 5 + 0.2) - 0.5)) / 255, (32 * (8 * (0.8
  * Every coloured vertex has the colour of the sheet.
  * @param {import('../../pkg/index.js').Heightfield} field
  */
-function checkShades({ rows, cols, spacing, origin = [0, 0], heights = [], colors = new Float32Array() }, tolerance = 1e-4) {
-  assert.equal(colors.length, 3 * rows * cols);
+function checkShades(field, tolerance = 1e-4) {
+  const { heights = [], colors = new Float32Array() } = field;
+  assert.equal(colors.length, 3 * field.rows * field.cols);
   let count = 0;
   heights.forEach((z, i) => {
     if (Number.isNaN(z)) return;
-    const row = Math.floor(i / cols);
-    const x = origin[0] + ((i % cols) - (row % 2) / 2) * spacing;
-    shade(x, origin[1] - row * spacing * Math.sqrt(0.75)).forEach((value, k) => {
+    const [x, y] = placeOf(field, i);
+    shade(x, y).forEach((value, k) => {
       assert.ok(Math.abs(colors[3 * i + k] - value) < tolerance, `vertex ${i}: ${colors[3 * i + k]}, not ${value}`);
     });
     count += 1;
@@ -119,14 +120,12 @@ test('a photo gives an image its colours', async () => {
   const surface = await developable.fit(image, { lambda: 'big' });
   const painted = direct.paint(surface, photo);
   assert.equal(painted.texture, undefined, 'pixels are no file');
-  const { rows, cols, spacing, origin, heights, colors } = painted;
-  for (let i = 0; i < rows * cols; i++) {
-    if (Number.isNaN(heights[i])) continue;
-    const row = Math.floor(i / cols);
+  const { colors } = painted;
+  for (const [i, z] of painted.heights.entries()) {
+    if (Number.isNaN(z)) continue;
+    const [x, y] = placeOf(painted, i);
     // In pixels of the photo, four to a unit, the centre of the first at 0; it ends as it is there.
-    const x = 4 * (origin[0] + ((i % cols) - (row % 2) / 2) * spacing) - 0.5;
-    const y = 17.5 - 4 * (origin[1] - row * spacing * Math.sqrt(0.75));
-    const expected = [Math.min(Math.max(x, 0), 23), Math.min(Math.max(y, 0), 17)].map((v) => (10 * v) / 255);
+    const expected = [Math.min(Math.max(4 * x - 0.5, 0), 23), Math.min(Math.max(17.5 - 4 * y, 0), 17)].map((v) => (10 * v) / 255);
     expected.forEach((value, k) => assert.ok(Math.abs(colors[3 * i + k] - value) < 1e-4, `${i}: ${colors[3 * i + k]} ${value}`));
   }
   const png = direct.writePhoto(photo);
@@ -142,14 +141,11 @@ test('colours of a depth camera, from files of other programs', async () => {
   const camera = { fx: 60, fy: 62, cx: 39.5, cy: 29.5, depthScale: 1 / 5000 };
   const mesh = direct.backProject(direct.read(depth), camera);
   const seen = direct.sampleMesh({ ...mesh, textures: [colour] }, { resolution: 50 });
-  const { rows, cols, spacing, origin, heights, colors = [] } = seen;
+  const { colors = [] } = seen;
   let count = 0;
-  for (let i = 0; i < rows * cols; i++) {
-    const z = heights[i];
+  for (const [i, z] of seen.heights.entries()) {
     if (Number.isNaN(z)) continue;
-    const row = Math.floor(i / cols);
-    const x = origin[0] + ((i % cols) - (row % 2) / 2) * spacing;
-    const y = origin[1] - row * spacing * Math.sqrt(0.75);
+    const [x, y] = placeOf(seen, i);
     // The plane of the script, whose y counts down and z ahead, to a level of the depths; and the pixel that saw it.
     assert.ok(Math.abs(0.36 * x - 0.48 * y - 0.8 * z - 2) < 2e-4, `vertex ${i}`);
     const [u, v] = [39.5 - (60 * x) / z, 29.5 + (62 * y) / z];

@@ -33,17 +33,17 @@ async function tabTo(page, selector, key = 'Tab') {
   assert.fail(`${key} never reaches ${selector}`);
 }
 
-/** Lets no run of a page begin in its worker before it is cancelled. @param {Page} page */
+/** Lets the next run of a page begin in its worker only when it is cancelled. @param {Page} page */
 const neverEnding = (page) => page.evaluate(() => {
   const { postMessage } = Worker.prototype;
-  let isCancelled = false;
-  /** @type {(() => void)[]} */
-  const held = [];
+  let start = () => {};
   Worker.prototype.postMessage = function (/** @type {any} */ message, /** @type {any} */ transfer) {
     const send = () => postMessage.call(this, message, transfer);
-    isCancelled ||= String(message?.path) === 'stop';
-    if (String(message?.path) === 'startOpen' && !isCancelled) return void held.push(send);
-    if (isCancelled) for (const one of held.splice(0)) one();
+    if (message?.path?.[0] === 'startOpen') return void (start = send);
+    if (message?.path?.[0] === 'stop') {
+      Worker.prototype.postMessage = postMessage;
+      start();
+    }
     send();
   };
 });

@@ -1,5 +1,6 @@
 /** More than heights: occlusions; other energies; a slider that restarts. */
 import assert from 'node:assert/strict';
+import { deviation } from '../js/support/shapes.mjs';
 import { grid, npy, parseNpy } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
 import { open, reported, runBy, save, sharedDoorTest, sharedTest, typeLambda } from './support/page.mjs';
@@ -16,9 +17,6 @@ const run = (page) => runBy(page, () => page.getByRole('button', { name: 'Solve'
 const result = async (page) => parseNpy((await save(page, 'NPY')).bytes).values;
 /** @param {Page} page */
 const names = (page) => page.locator('#report-table tr:not(.group) th').allInnerTexts();
-
-/** @param {number[]} found @param {number[]} expected */
-const deviation = (found, expected) => Math.max(...found.map((value, i) => Math.abs(value - expected[i])));
 
 sharedDoorTest('where it jumps it is torn', async (page) => {
   const step = grid(WIDTH, HEIGHT, (col, row) => slope(col, row) + (col > 20 ? 15 : 0));

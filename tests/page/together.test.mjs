@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { unzipSync } from 'fflate';
 import { meets } from '../js/support/phone.mjs';
+import { gridMesh } from '../js/support/shapes.mjs';
 import { grid, npy, parseNpy, png16 } from './support/files.mjs';
 import { choose, downloaded, drop, dropAll, look, open, painted, runBy, settled, sharedDoorTest, sharedTest } from './support/page.mjs';
 import { camera, colouredPicture, dots, dottedPhoto, png } from './support/photos.mjs';
@@ -70,18 +71,13 @@ sharedTest('a scan in OBJ brings its material and texture along', async (page) =
   // The page of the photo, seen from above: its texture is the flat page.
   const [n, m, radius] = [40, 12, 0.12];
   const lines = ['mtllib page.mtl', 'usemtl paper'];
-  for (let j = 0; j <= m; j++) {
-    for (let i = 0; i <= n; i++) {
-      const angle = ((i / n - 0.5) * 0.21) / radius;
-      lines.push(`v ${radius * Math.sin(angle)} ${0.297 * (j / m - 0.5)} ${radius * Math.cos(angle)}`, `vt ${i / n} ${j / m}`);
-    }
-  }
-  for (let j = 0; j < m; j++) {
-    for (let i = 0; i < n; i++) {
-      const [a, b, c, d] = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(([x, y]) => y * (n + 1) + x + 1);
-      lines.push(`f ${a}/${a} ${b}/${b} ${c}/${c}`, `f ${a}/${a} ${c}/${c} ${d}/${d}`);
-    }
-  }
+  const { triangles } = gridMesh(n + 1, m + 1, (i, j) => {
+    const angle = ((i / n - 0.5) * 0.21) / radius;
+    const place = /** @type {const} */ ([radius * Math.sin(angle), 0.297 * (j / m - 0.5), radius * Math.cos(angle)]);
+    lines.push(`v ${place.join(' ')}`, `vt ${i / n} ${j / m}`);
+    return [...place];
+  });
+  for (let i = 0; i < triangles.length; i += 3) lines.push(`f ${Array.from(triangles.subarray(i, i + 3), (v) => `${v + 1}/${v + 1}`).join(' ')}`);
   await dropAll(page, {
     'page.obj': Buffer.from(`${lines.join('\n')}\n`),
     'page.mtl': Buffer.from('newmtl paper\nmap_Kd page.png\n'),

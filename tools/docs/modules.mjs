@@ -3,8 +3,9 @@
  * in `use` and elsewhere. Code of tests does not count. A path to a name that a module imports or re-exports is one to the
  * module that it comes from, and a re-export is no dependency itself.
  */
-import { readFileSync } from 'node:fs';
-import { rustFiles } from './sources.mjs';
+import { readFileSync, readdirSync } from 'node:fs';
+import { join, sep } from 'node:path';
+import { root } from '../util/paths.mjs';
 
 /** @typedef {Map<string, Set<string>>} Graph  The modules that each module depends on, by their paths below `src/`. */
 /**
@@ -14,19 +15,21 @@ import { rustFiles } from './sources.mjs';
  * @property {Map<string, string[]>} imported  Paths of the names that it imports or re-exports.
  */
 
-/** The graph of the checkout. */
-export function moduleGraph() {
-  return graphOf(new Map(rustFiles(['src']).map((path) => [path.slice('src/'.length), readFileSync(path, 'utf8')])));
+/** An item that is compiled for tests only: the code of a module, a function or a line. */
+export const TEST_ITEM = /^( *)#\[cfg\((?:all\()?test\b[^\n]*\] *\n(?:\1#\[[^\n]*\n)*\1[^\n]*(?:;\n|\{\n(?:[^\n]*\n)*?\1\}\n?|(?<=\})\n)/gm;
+
+/** The sources of the library without files of tests, by their paths below `src/`, as in `fit/mod.rs`. */
+export function librarySources() {
+  const names = readdirSync(join(root, 'src'), { encoding: 'utf8', recursive: true }).map((name) => name.split(sep).join('/'));
+  const own = names.filter((name) => name.endsWith('.rs') && !/(?:^|\/)tests(?:\.rs$|\/)/.test(name)).sort();
+  return new Map(own.map((name) => [name, readFileSync(join(root, 'src', name), 'utf8')]));
 }
 
-/**
- * @param {Map<string, string>} sources  By their paths below `src/`, as in `fit/mod.rs`.
- * @returns {Graph}
- */
-export function graphOf(sources) {
+/** The graph of the checkout. @returns {Graph} */
+export function moduleGraph() {
   /** @type {Map<string, Module>} */
   const modules = new Map();
-  for (const [file, text] of sources) {
+  for (const [file, text] of librarySources()) {
     const path = file.replace(/\.rs$/, '').replace(/(^|\/)(mod|lib)$/, '').split('/').filter(Boolean);
     modules.set(path.join('::'), { path, code: withoutTests(text), imported: new Map() });
   }
@@ -78,8 +81,7 @@ function reachable(graph, from) {
  */
 function withoutTests(text) {
   const code = text.replace(/\/\/[^\n]*/g, '').replace(/"(?:[^"\\]|\\.)*"/g, '""');
-  const test = /^( *)#\[cfg\((?:all\()?test\b[^\n]*\] *\n(?:\1#\[[^\n]*\n)*\1[^\n]*(?:;\n|\{\n(?:[^\n]*\n)*?\1\}\n?|(?<=\})\n)/gm;
-  return code.replace(test, '');
+  return code.replace(TEST_ITEM, '');
 }
 
 /**

@@ -18,6 +18,16 @@ export function image(width, height, f, pixelSize = 1) {
 }
 
 /**
+ * Where a vertex of a lattice is.
+ * @param {{ cols: number, spacing: number, origin?: readonly [number, number] }} lattice
+ * @param {number} vertex
+ */
+export function placeOf({ cols, spacing, origin: [left, top] = [0, 0] }, vertex) {
+  const row = Math.floor(vertex / cols);
+  return [left + ((vertex % cols) - (row % 2) / 2) * spacing, top - row * spacing * Math.sqrt(0.75)];
+}
+
+/**
  * Heights of `f(x, y)` on the lattice.
  * @param {number} rows
  * @param {number} cols
@@ -25,12 +35,10 @@ export function image(width, height, f, pixelSize = 1) {
  * @param {number} [spacing]
  */
 export function lattice(rows, cols, f, spacing = 1) {
-  const heights = new Float64Array(rows * cols);
-  for (let i = 0; i < heights.length; i += 1) {
-    const row = Math.floor(i / cols);
-    const x = ((i % cols) - (row % 2) / 2) * spacing;
-    heights[i] = f(x, -row * spacing * Math.sqrt(0.75));
-  }
+  const heights = Float64Array.from({ length: rows * cols }, (_, i) => {
+    const [x, y] = placeOf({ cols, spacing }, i);
+    return f(x, y);
+  });
   return { rows, cols, spacing, heights };
 }
 

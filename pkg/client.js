@@ -109,7 +109,7 @@ export class DevelopableWorker {
     if (!control.keep) control.signal?.throwIfAborted();
     const { shape, own } = wholeOf(mesh);
     const found = this.#request((remote) =>
-      solve(remote, (id, interval) => remote.startMesh(id, shape, options, interval), control));
+      solve(remote, (id, interval) => remote.start(id, shape, options, interval), control));
     const surface = await orAborted(found, control);
     return /** @type {any} */ ({ ...own, ...surface });
   }

@@ -68,29 +68,15 @@ export const service = {
   /**
    * Begins a solve under a number of the client's choice, by which it can be stopped at any time.
    * @param {number} id
-   * @param {Input} input
-   * @param {import('./types.js').SolverOptions} options
+   * @param {Input | import('./types.js').Mesh} input
+   * @param {import('./types.js').SolverOptions | import('./types.js').MeshSolverOptions} options
    * @param {number} interval milliseconds between two pieces of news, at least
    */
   start(id, input, options, interval) {
     const begin = async () => {
-      await loaded(['solver']);
-      return new direct.Solver(input, options);
-    };
-    jobs.set(id, new Job(begin, interval));
-  },
-
-  /**
-   * Begins a solve over a mesh likewise.
-   * @param {number} id
-   * @param {import('./types.js').Mesh} mesh
-   * @param {import('./types.js').MeshSolverOptions} options
-   * @param {number} interval
-   */
-  startMesh(id, mesh, options, interval) {
-    const begin = async () => {
-      await loaded(['fitmesh']);
-      return new direct.MeshSolver(mesh, options);
+      const isWhole = 'positions' in input;
+      await loaded([isWhole ? 'fitmesh' : 'solver']);
+      return isWhole ? new direct.MeshSolver(input, options) : new direct.Solver(input, options);
     };
     jobs.set(id, new Job(begin, interval));
   },

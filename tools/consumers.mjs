@@ -34,9 +34,9 @@ await main(async () => {
       return `FAILED: ${describe(error)}`;
     });
     console.log(result);
-    rows.push([name, await version(tool), result.split('\n')[0]]);
+    rows.push({ trial: name, version: await version(tool), result: result.split('\n')[0] });
   }
-  console.log(`\n${table([['trial', 'version', 'result'], ...rows])}`);
+  console.table(rows);
 });
 
 /** The tools, and the package as npm would pack it. */
@@ -67,10 +67,4 @@ async function version(tool) {
   if (tool === 'node') return process.versions.node;
   if (tool === 'chromium') return 'Chromium';
   return JSON.parse(await readFile(join(folder, 'node_modules', tool, 'package.json'), 'utf8')).version;
-}
-
-/** @param {string[][]} rows */
-function table(rows) {
-  const widths = rows[0].map((_, column) => Math.max(...rows.map((row) => row[column].length)));
-  return rows.map((row) => row.map((text, column) => text.padEnd(widths[column])).join('  ').trimEnd()).join('\n');
 }

@@ -4,14 +4,15 @@
  */
 import { createHash } from 'node:crypto';
 import { existsSync } from 'node:fs';
-import { copyFile, mkdir, readFile, readdir, rm, writeFile } from 'node:fs/promises';
-import { join, relative, resolve, sep } from 'node:path';
+import { copyFile, mkdir, readFile, rm, writeFile } from 'node:fs/promises';
+import { join, resolve, sep } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { promisify } from 'node:util';
 import { brotliCompress, constants, gzip } from 'node:zlib';
 import { build } from './build.mjs';
 import { KEPT, writeGuide } from './site/guide.mjs';
 import { writeReferences } from './site/reference.mjs';
+import { filesIn, hashOf } from './util/hash.mjs';
 import { pkg, root, www } from './util/paths.mjs';
 import { Problem, main } from './util/problem.mjs';
 
@@ -83,9 +84,8 @@ export async function bundlePage(folder) {
  * @param {{ quality?: number }} [options] quality of Brotli, of at most 11, and of gzip, which has 9
  */
 export async function compressFiles(folder, { quality = BROTLI_QUICK_QUALITY } = {}) {
-  const entries = await readdir(folder, { recursive: true, withFileTypes: true });
-  await Promise.all(entries.filter((entry) => entry.isFile() && /\.(?:html|js|css|wasm|svg|webmanifest)$/.test(entry.name)).map(async (entry) => {
-    const file = join(entry.parentPath, entry.name);
+  const files = (await filesIn(folder)).filter((file) => /\.(?:html|js|css|wasm|svg|webmanifest)$/.test(file));
+  await Promise.all(files.map((file) => join(folder, file)).map(async (file) => {
     const bytes = await readFile(file);
     await writeFile(`${file}.br`, await promisify(brotliCompress)(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: quality } }));
     await writeFile(`${file}.gz`, await promisify(gzip)(bytes, { level: Math.min(quality, constants.Z_BEST_COMPRESSION) }));
@@ -118,14 +118,11 @@ export async function writeSite(folder, { references = false, quality = referenc
  * @param {string} folder
  */
 async function writeWorker(folder) {
-  const entries = await readdir(folder, { recursive: true, withFileTypes: true });
-  const files = entries.filter((entry) => entry.isFile() && !entry.name.startsWith('LICENSE'))
-    .map((entry) => relative(folder, join(entry.parentPath, entry.name)).split(sep).join('/')).sort();
+  const files = (await filesIn(folder)).filter((file) => !/(?:^|\/)LICENSE[^/]*$/.test(file));
   const code = await readFile(join(www, 'site', 'sw.js'), 'utf8');
-  const hash = createHash('sha256').update(code);
-  for (const file of files) hash.update(file).update(await readFile(join(folder, file)));
+  const version = createHash('sha256').update(code).update(await hashOf(folder, files)).digest('hex').slice(0, 16);
   const kept = files.filter((file) => !/^(?:guide|reference)\/|^llms\.txt$|\/(?:threads_bg|text|pdf|heif)-[^/]*$/.test(file) || KEPT.includes(file));
-  const site = { version: hash.digest('hex').slice(0, 16), files: kept.map((file) => `./${file}`) };
+  const site = { version, files: kept.map((file) => `./${file}`) };
   await writeFile(join(folder, 'sw.js'), `globalThis.SITE = ${JSON.stringify(site)};\n${code}`);
 }
 

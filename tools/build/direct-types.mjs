@@ -2,11 +2,11 @@
  * The types of the calls of the synchronous API, `pkg/direct-calls.d.ts`, made from those of the promise API: without promises, and
  * without what only a worker can be given.
  */
-import { readFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { pkg } from '../util/paths.mjs';
+import { exportsOf } from './exports.mjs';
 
-/** @typedef {{ type: string, start: number, end: number, [field: string]: any }} Node of the syntax tree */
+/** @typedef {import('./exports.mjs').Node} Node */
 
 /** What a direct call takes instead of these types; nothing instead of those that are empty. @type {Record<string, string>} */
 const INSTEAD = { Abortable: '', Blob: '', Drawable: '', HandOver: '', PhotoSource: 'Uint8Array | ArrayBuffer', Watchable: 'Watched' };
@@ -15,7 +15,7 @@ export const directTypesFile = join(pkg, 'direct-calls.d.ts');
 
 /** The text of the file. */
 export async function directTypes() {
-  const [given, own, types, options, results] = await Promise.all(['index', 'direct', 'types', 'option-types', 'result-types'].map((name) => parsed(name)));
+  const [given, own, types, options, results] = await Promise.all(['index', 'direct', 'types', 'option-types', 'result-types'].map(declared));
   const names = namesIn([...types.nodes, ...options.nodes, ...results.nodes]);
   const isOwn = namesIn(own.nodes);
   const calls = await directCalls();
@@ -30,7 +30,7 @@ export async function directTypes() {
 
 /** The names that the synchronous API exports. */
 async function directCalls() {
-  const { nodes } = await parsed('direct', 'js');
+  const { nodes } = await exportsOf(join(pkg, 'direct.js'));
   return new Set(nodes.flatMap(({ declaration, specifiers }) => [
     ...specifiers.map((/** @type {Node} */ { exported }) => exported.name),
     ...(declaration?.declarations ?? (declaration ? [declaration] : [])).flatMap((/** @type {Node} */ { id }) =>
@@ -38,25 +38,19 @@ async function directCalls() {
   ]));
 }
 
-/** The exports of a file of the package. @param {string} name @param {string} [ending] */
-async function parsed(name, ending = 'd.ts') {
-  const path = join(pkg, `${name}.${ending}`);
-  const source = await readFile(path, 'utf8');
-  // Before `npm install` there is none.
-  const { parse } = await import('rolldown/utils');
-  const { program, comments, errors } = await parse(path, source);
-  if (errors.length > 0) throw new Error(`${path}: ${errors[0].message}`);
-  const nodes = program.body.filter((/** @type {Node} */ node) => node.type === 'ExportNamedDeclaration' && (ending === 'js' || node.declaration));
-  return { source, comments, nodes: /** @type {Node[]} */ (/** @type {unknown} */ (nodes)) };
+/** The types that a file of the package declares. @param {string} name */
+async function declared(name) {
+  const { nodes, ...file } = await exportsOf(join(pkg, `${name}.d.ts`));
+  return { ...file, nodes: nodes.filter(({ declaration }) => declaration) };
 }
 
 /** The names of declarations. @param {Node[]} nodes @returns {Set<string>} */
 const namesIn = (nodes) => new Set(nodes.map(({ declaration }) => declaration.id.name));
 
-/** The comment above a declaration: what rejects throws here. @param {Awaited<ReturnType<typeof parsed>>} file @param {Node} node */
-function commentOf({ source, comments }, { start }) {
-  const above = comments.find(({ end }) => end < start && source.slice(end, start).trim() === '');
-  return above ? `${source.slice(above.start, above.end).replace(/\breject(s?)\b/g, 'throw$1')}\n` : '';
+/** The comment above a declaration: what rejects throws here. @param {Awaited<ReturnType<typeof declared>>} file @param {Node} node */
+function commentOf({ source, above }, node) {
+  const { start, end } = above(node) ?? { start: 0, end: 0 };
+  return start < end ? `${source.slice(start, end).replace(/\breject(s?)\b/g, 'throw$1')}\n` : '';
 }
 
 /** @param {string} source @param {Node} declaration of a function */

@@ -1,12 +1,14 @@
 /** The types of options, `pkg/option-types.d.ts`, made from the schema: its kinds, its defaults, and the comments above its rows. */
-import { readFile, writeFile } from 'node:fs/promises';
+import { writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { root } from '../util/paths.mjs';
 import { main } from '../util/problem.mjs';
 import { directTypes, directTypesFile } from './direct-types.mjs';
+import { exportsOf } from './exports.mjs';
 
 /** @typedef {import('../../pkg/schema/kinds.js').Options} Options */
+/** @typedef {import('./exports.mjs').Node} Node */
 
 const schema = join(root, 'pkg/schema');
 export const optionTypesFile = join(root, 'pkg/option-types.d.ts');
@@ -56,36 +58,20 @@ export async function optionTypes() {
 }
 
 /**
- * The declarations that a file exports, each with a function that says what the comment above a node of the file says.
- * @param {string} path
- */
-async function exportsOf(path) {
-  const source = await readFile(path, 'utf8');
-  // Before `npm install` there is none.
-  const { parse } = await import('rolldown/utils');
-  const { program, comments, errors } = await parse(path, source);
-  if (errors.length > 0) throw new Error(`${path}: ${errors[0].message}`);
-  /** @param {{ start: number }} node */
-  const docOf = ({ start }) => {
-    const above = comments.find((one) => one.end < start && source.slice(one.end, start).trim() === '');
-    return textOf(above?.value ?? '');
-  };
-  const nodes = program.body.filter((node) => node.type === 'ExportNamedDeclaration');
-  return { nodes, docOf };
-}
-
-/**
  * The sets of options that a module of the schema exports, each with what is said of it and of its rows.
  * @param {string} path
  */
 async function setsIn(path) {
-  const { nodes, docOf } = await exportsOf(path);
+  const { nodes, above } = await exportsOf(path);
+  /** @param {Node} node */
+  const docOf = (node) => textOf(above(node)?.value ?? '');
   return nodes.flatMap((node) => {
     if (node.declaration?.type !== 'VariableDeclaration') return [];
     const [{ id, init }] = node.declaration.declarations;
-    if (id.type !== 'Identifier' || init?.type !== 'ObjectExpression') return [];
-    const rows = init.properties.flatMap((row) =>
-      row.type === 'Property' && row.key.type === 'Identifier' ? [{ name: row.key.name, doc: docOf(row) }] : []);
+    if (init?.type !== 'ObjectExpression') return [];
+    /** @type {Node[]} */
+    const properties = init.properties.filter((/** @type {Node} */ { type }) => type === 'Property');
+    const rows = properties.map((row) => ({ name: row.key.name, doc: docOf(row) }));
     return [{ name: id.name, doc: docOf(node), rows }];
   });
 }

@@ -1,10 +1,10 @@
 /** The solver's wasm for several threads: the same crate, built for atomic operations and a shared memory. */
-import { createHash } from 'node:crypto';
 import { existsSync } from 'node:fs';
-import { readFile, readdir, writeFile } from 'node:fs/promises';
+import { readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { target } from '../setup/wasm-target.mjs';
 import { replaceFolder } from '../util/folders.mjs';
+import { filesIn, hashOf } from '../util/hash.mjs';
 import { pkgThreads, root } from '../util/paths.mjs';
 import { bindgenArguments, checkSize, moduleFile, must, wasmOpt } from './wasm.mjs';
 import { alignStorage } from './tls.mjs';
@@ -87,12 +87,7 @@ async function isBuiltOf(origin) {
 
 /** Changes with any source of the build. */
 async function sourceHash() {
-  const hash = createHash('sha256');
-  for (const name of ['Cargo.toml', 'Cargo.lock']) hash.update(await readFile(join(root, name)));
-  for (const folder of ['src', 'wasm/common', 'wasm/solver', 'tools/build']) {
-    const entries = await readdir(join(root, folder), { recursive: true, withFileTypes: true });
-    const files = entries.filter((entry) => entry.isFile()).map((entry) => join(entry.parentPath, entry.name));
-    for (const file of files.sort()) hash.update(file.slice(root.length)).update(await readFile(file));
-  }
-  return hash.digest('hex');
+  const folders = await Promise.all(['src', 'wasm/common', 'wasm/solver', 'tools/build'].map(async (folder) =>
+    (await filesIn(join(root, folder))).map((file) => `${folder}/${file}`)));
+  return hashOf(root, ['Cargo.toml', 'Cargo.lock', ...folders.flat()]);
 }

@@ -1,9 +1,9 @@
 /** wasm-bindgen's programs, in the very version that the crates in wasm/ are built with. */
-import { createHash } from 'node:crypto';
 import { existsSync } from 'node:fs';
-import { readFile, readdir } from 'node:fs/promises';
+import { readFile } from 'node:fs/promises';
 import { homedir } from 'node:os';
 import { dirname, join } from 'node:path';
+import { filesIn, hashOf } from '../util/hash.mjs';
 import { root } from '../util/paths.mjs';
 import { Problem } from '../util/problem.mjs';
 import { run } from '../util/process.mjs';
@@ -54,10 +54,8 @@ async function wanted() {
 
 /** Changes with any file of tools/bindgen. */
 async function sourceHash() {
-  const hash = createHash('sha256');
-  const names = (await readdir(join(sources, 'src'))).sort().map((name) => join('src', name));
-  for (const name of ['Cargo.toml', ...names]) hash.update(name).update(await readFile(join(sources, name)));
-  return hash.digest('hex').slice(0, 12);
+  const names = (await filesIn(join(sources, 'src'))).map((name) => `src/${name}`);
+  return (await hashOf(sources, ['Cargo.toml', ...names])).slice(0, 12);
 }
 
 /**

@@ -1,6 +1,5 @@
 /** The synchronous API: runs where it is called. Documented in `direct.d.ts`. */
 import { asDepthOptions } from './depth-input.js';
-import { DevelopableError } from './errors.js';
 import { isBasic, isImage } from './formats.js';
 import { asBytes, asField, asHeights, asImage, asInput, asPixels, carriedOf } from './input.js';
 import { files, images, meshFits, meshes, partOf, patterns, solver, surfaces } from './instances.js';

@@ -1,9 +1,8 @@
 /** The flags: what there is, in the order in which they are explained, and how the text after each is read. */
-import { nearest } from '../nearest.js';
 import { show } from '../values.js';
 import { sampleMesh } from '../schema/file.js';
 import { occlusions, solver, threading } from '../schema/fit.js';
-import { choice, flag, number, text } from '../schema/kinds.js';
+import { choice, number, text } from '../schema/kinds.js';
 import { drawing, model } from '../schema/pattern.js';
 import { dewarp, dewarpPage, writePhoto } from '../schema/photo.js';
 import { patchesMesh, rulings } from '../schema/shape.js';

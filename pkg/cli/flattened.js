@@ -3,7 +3,6 @@ import * as developable from '../index.js';
 import { solver } from '../schema/fit.js';
 import { solve } from './fit.js';
 import { readForFit, readInput } from './inputs.js';
-import { Problem, status } from './problem.js';
 import { optionsFrom } from './task.js';
 import { reportFile } from './texts.js';
 

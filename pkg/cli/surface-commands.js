@@ -6,7 +6,7 @@ import { solve } from './fit.js';
 import { flattened, spacing } from './flattened.js';
 import { readForFit, readInput } from './inputs.js';
 import { optionsFrom } from './task.js';
-import { during, succeed } from './terminal.js';
+import { succeed } from './terminal.js';
 import { json, linesObj, reportFile } from './texts.js';
 
 /**

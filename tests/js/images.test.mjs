@@ -7,7 +7,7 @@ import { pathToFileURL } from 'node:url';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { loadSync } from '../../pkg/sync.js';
-import { run, temporaryFolder } from './support/command.mjs';
+import { refuses, run, temporaryFolder } from './support/command.mjs';
 import { error } from './support/error.mjs';
 import { filesWasmFile, imagesWasmFile, pkg, root } from './support/paths.mjs';
 import { deviation, image, plane } from './support/shapes.mjs';
@@ -138,9 +138,7 @@ test('the command tells what is in a file', async () => {
   // Of levels, what they stand for.
   await writeFile(join(folder, 'steps.png'), direct.writeImage({ width: 3, height: 2, data: [1, 2, 3, 4, 5, 6] }, { format: 'png' }));
   assert.match((await developableCommand('info steps.png')).stdout, /^heights: +1 to 6$/m);
-  const refused = await developableCommand('info colour.jpg');
-  assert.deepEqual([refused.status, refused.stdout], [3, '']);
-  assert.match(refused.stderr, /colour\.jpg: JPEG: the pixel at row 0/);
+  await refuses(folder, [['info colour.jpg', /colour\.jpg: JPEG: the pixel at row 0/, 3]]);
   const several = await developableCommand('fit several.npz -o out.npy');
   assert.match(several.stderr, /several\.npz: .*choose one by --array/);
   assert.equal((await developableCommand('info geo-metres.tif --lambda 3')).status, 2);

@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
-import { run, temporaryFolder } from './support/command.mjs';
+import { refuses, run, silent, temporaryFolder } from './support/command.mjs';
 import { error } from './support/error.mjs';
 import { gridMesh, placeOf } from './support/shapes.mjs';
 
@@ -169,7 +169,6 @@ test('the command fits a mesh in its own axes', async () => {
   await writeFile(join(folder, 'image.npy'), 'none');
   /** @param {string} args */
   const fit = (args) => run(folder, ['fit', ...args.split(' ')]);
-  const silent = { status: 0, stdout: '', stderr: '' };
   for (const view of ['-z', '+y', '-1,-2,-4', 'best-fit']) {
     assert.deepEqual(await fit(`plane.obj --unit mm --view ${view} --resolution 25 --lambda big -o out.obj`), silent);
     const points = verticesOf(await readFile(join(folder, 'out.obj'), 'utf8'));
@@ -179,22 +178,16 @@ test('the command fits a mesh in its own axes', async () => {
   const points = verticesOf(await readFile(join(folder, 'out.obj'), 'utf8'));
   assert.ok(points.length > 20 && points.every((point) => offPlane(point) < 1e-6));
   assert.deepEqual(await fit('plane.obj --unit mm --spacing 0.1 --lambda big -o out.npy'), silent);
-  /** @type {[string, number, RegExp][]} */
-  const wrong = [
-    ['plane.obj --view top -o out.obj', 2, /--view/],
-    ['plane.obj --view 1,2 -o out.obj', 2, /--view/],
-    ['plane.obj --resolution 1 -o out.obj', 2, /--resolution/],
-    ['plane.obj --resolution 9 --spacing 1 -o out.obj', 2, /--spacing/],
-    ['plane.obj --mask image.npy -o out.obj', 2, /--mask/],
-    ['image.npy --view -z -o out.obj', 2, /--view/],
-    ['bad.ply -o out.obj', 3, /bad\.ply.*PLY/],
-    ['nothing.stl -o out.obj', 3, /nothing\.stl/],
-  ];
-  for (const [args, status, message] of wrong) {
-    const result = await fit(args);
-    assert.equal(result.status, status, `${args}: ${result.stderr}`);
-    assert.match(result.stderr, message);
-  }
+  await refuses(folder, [
+    ['fit plane.obj --view top -o out.obj', /--view/],
+    ['fit plane.obj --view 1,2 -o out.obj', /--view/],
+    ['fit plane.obj --resolution 1 -o out.obj', /--resolution/],
+    ['fit plane.obj --resolution 9 --spacing 1 -o out.obj', /--spacing/],
+    ['fit plane.obj --mask image.npy -o out.obj', /--mask/],
+    ['fit image.npy --view -z -o out.obj', /--view/],
+    ['fit bad.ply -o out.obj', /bad\.ply.*PLY/, 3],
+    ['fit nothing.stl -o out.obj', /nothing\.stl/, 3],
+  ]);
   const info = await run(folder, ['info', 'cloud.obj']);
   assert.deepEqual([info.status, info.stderr], [0, '']);
   for (const line of [/^vertices: +169$/m, /^triangles: +none: a point cloud$/m, /^x: +0 to 1$/m, /^z: +-0\.5 to 0\.25$/m, /^colours: +no$/m]) {

@@ -7,7 +7,7 @@ import { commands } from '../../pkg/cli/commands.js';
 import { asFlags, sections } from '../../pkg/cli/flags.js';
 import { Problem } from '../../pkg/cli/problem.js';
 import * as direct from '../../pkg/direct.js';
-import { parse, run, temporaryFolder } from './support/command.mjs';
+import { parse, refuses, run, temporaryFolder } from './support/command.mjs';
 import { cylinder, image, lattice, plane } from './support/shapes.mjs';
 
 await direct.init();
@@ -51,31 +51,25 @@ test('whatever stands after a flag, it is taken or refused in words that name a 
 });
 
 test('a flag without a value, and numbers that cannot be, are refused in plain words', async () => {
-  /** @type {[string[], number, RegExp][]} */
-  const cases = [
-    [['fit', 'a.npy', '-o', 'o.npy', '--mask='], 2, /: --mask is empty: it needs a value, as in --mask FILE\n/],
-    [['fit', 'a.npy', '-o', 'o.npy', '--gap', '1e300'], 2, /: --gap is 1e300, but must lie/],
-    [['fit', 'a.npy', '-o', 'o.npy', '--lambda', '-0'], 2, /: --lambda is 0, but must lie/],
-    [['fit', 'a.npy', '-o', 'o.npy', '--bend-radius', 'Infinity'], 2, /: --bend-radius is infinity, but/],
-    [['fit', 'a.npy', '-o', 'o.npy', '--bridge', 'Infinity'], 2, /: --bridge is infinity, but must be a width from 1 to 16.*, or none\n/],
-    [['fit', 'a.npy', '-o', 'o.npy', '--bridge', '99'], 2, /: --bridge is 99, but must be a width from 1 to 16.*, or none\n/],
-    [['fit', 'a.npy', '-o', 'o.npy', '--max-iterations', '0.5'], 2, /: --max-iterations is 0\.5, but must be a whole number from 0 to about 4 billion\n/],
-    [['fit', 'a.npy', '-o', 'o.npy', '--spacing', '0'], 2, /^developable: --spacing is 0, but must be/],
-    [['fit', 'a.npy', '-o', 'o.npy', '--spacing', '1e-300'], 3, /^developable: lattice needs billions of cells, more than the limit of 20,971,520;/],
-    [['fit', 'a.npy', '-o', 'o.obj', '--intrinsics', '0,8,8,8'], 2, /: fx of the camera \(--intrinsics or --photo-camera\) is 0, but/],
-    [['fit', 'a.npy', '-o', 'o.obj', '--intrinsics', '8,8,8,8,-1'], 2, /: scale of the camera \(--intrinsics or --photo-camera\) is -1, but/],
-    [['fit', 'm.obj', '-o', 'o.obj', '--view', '0,0,0'], 2, /: --view is \[0, 0, 0\], but/],
-    [['fit', 'm.obj', '-o', 'o.obj', '--view', '1e999,0,0'], 2, /: --view is \[Infinity, 0, 0\], but/],
-    [['pattern', 'a.npy', '-o', 'o.svg', '--as-is', '--lattice', 'hex', '--marks', '0.5'], 2, /: --marks is 0\.5, but must be from 1 to 50000, or 0 for none\n/],
-    [['fit', 'words.txt', '-o', 'o.npy'], 3, /^developable: words\.txt: text: it is of no format that is read; heights are read from PNG/],
-    [['dewarp', 'm.obj', '--texture', 'p.png', '-o', 'o.png'], 3, /: nothing says where in the photo the points of m\.obj are: --photo-camera FILE/],
-    [['pattern', 'a.npy', '-o', 'o.svg', '--as-is', '--lattice', 'hex', '--k-factor', '0.4'], 2, /: --inner-radius and --k-factor are .*: give --thickness, too\n/],
-  ];
-  for (const [args, status, message] of cases) {
-    const found = await run(folder, args);
-    assert.equal(found.status, status, `${args.join(' ')}: ${found.stderr}`);
-    assert.match(found.stderr, message);
-  }
+  await refuses(folder, [
+    [['fit', 'a.npy', '-o', 'o.npy', '--mask='], /: --mask is empty: it needs a value, as in --mask FILE\n/],
+    [['fit', 'a.npy', '-o', 'o.npy', '--gap', '1e300'], /: --gap is 1e300, but must lie/],
+    [['fit', 'a.npy', '-o', 'o.npy', '--lambda', '-0'], /: --lambda is 0, but must lie/],
+    [['fit', 'a.npy', '-o', 'o.npy', '--bend-radius', 'Infinity'], /: --bend-radius is infinity, but/],
+    [['fit', 'a.npy', '-o', 'o.npy', '--bridge', 'Infinity'], /: --bridge is infinity, but must be a width from 1 to 16.*, or none\n/],
+    [['fit', 'a.npy', '-o', 'o.npy', '--bridge', '99'], /: --bridge is 99, but must be a width from 1 to 16.*, or none\n/],
+    [['fit', 'a.npy', '-o', 'o.npy', '--max-iterations', '0.5'], /: --max-iterations is 0\.5, but must be a whole number from 0 to about 4 billion\n/],
+    [['fit', 'a.npy', '-o', 'o.npy', '--spacing', '0'], /^developable: --spacing is 0, but must be/],
+    [['fit', 'a.npy', '-o', 'o.npy', '--spacing', '1e-300'], /^developable: lattice needs billions of cells, more than the limit of 20,971,520;/, 3],
+    [['fit', 'a.npy', '-o', 'o.obj', '--intrinsics', '0,8,8,8'], /: fx of the camera \(--intrinsics or --photo-camera\) is 0, but/],
+    [['fit', 'a.npy', '-o', 'o.obj', '--intrinsics', '8,8,8,8,-1'], /: scale of the camera \(--intrinsics or --photo-camera\) is -1, but/],
+    [['fit', 'm.obj', '-o', 'o.obj', '--view', '0,0,0'], /: --view is \[0, 0, 0\], but/],
+    [['fit', 'm.obj', '-o', 'o.obj', '--view', '1e999,0,0'], /: --view is \[Infinity, 0, 0\], but/],
+    [['pattern', 'a.npy', '-o', 'o.svg', '--as-is', '--lattice', 'hex', '--marks', '0.5'], /: --marks is 0\.5, but must be from 1 to 50000, or 0 for none\n/],
+    [['fit', 'words.txt', '-o', 'o.npy'], /^developable: words\.txt: text: it is of no format that is read; heights are read from PNG/, 3],
+    [['dewarp', 'm.obj', '--texture', 'p.png', '-o', 'o.png'], /: nothing says where in the photo the points of m\.obj are: --photo-camera FILE/, 3],
+    [['pattern', 'a.npy', '-o', 'o.svg', '--as-is', '--lattice', 'hex', '--k-factor', '0.4'], /: --inner-radius and --k-factor are .*: give --thickness, too\n/],
+  ]);
 });
 
 test('names of options become those of flags, and no other names do', () => {
@@ -146,7 +140,5 @@ test('no figure or message is not a number where a mesh is all in one place, on 
 
 test('where a view of a mesh cannot be laid flat, the command names the flag for the whole mesh', async () => {
   await writeFile(join(folder, 'dome.obj'), direct.writeObj(lattice(12, 12, (x, y) => -0.08 * ((x - 5.5) ** 2 + (y + 4.8) ** 2))));
-  const { status, stderr } = await run(folder, 'pattern dome.obj -o o.svg --max-strain 1e-7 --resolution 20'.split(' '));
-  assert.equal(status, 3, stderr);
-  assert.match(stderr, /cannot be laid flat: .*; or give --surface/);
+  await refuses(folder, [['pattern dome.obj -o o.svg --max-strain 1e-7 --resolution 20', /cannot be laid flat: .*; or give --surface/, 3]]);
 });

@@ -4,7 +4,7 @@ import { mkdir, readFile, symlink, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import * as direct from '../../pkg/direct.js';
-import { parse, run, temporaryFolder } from './support/command.mjs';
+import { parse, run, silent, temporaryFolder } from './support/command.mjs';
 import { deviation, image, plane } from './support/shapes.mjs';
 
 await Promise.all([direct.init(), direct.load('files')]);
@@ -26,7 +26,7 @@ test('the input is replaced only with --force', async () => {
   }
   // The link as the input, and the file itself as the output.
   assert.equal((await run(folder, ['fit', 'link.npy', '-o', 'scan.npy'])).status, 2);
-  assert.deepEqual(await run(folder, ['fit', 'scan.npy', '-o', 'link.npy', '--force']), { status: 0, stdout: '', stderr: '' });
+  assert.deepEqual(await run(folder, ['fit', 'scan.npy', '-o', 'link.npy', '--force']), silent);
   const { data } = direct.read(await readFile(path));
   assert.ok(deviation(data, ramp.data) < 1e-9, 'a plane is fitted by itself');
   assert.notDeepEqual(new Uint8Array(await readFile(path)), scan, 'of 64 bits instead of 32');

@@ -6,7 +6,7 @@ import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { normal, smoothNoise } from '../../tools/bench/phone/sensor.mjs';
-import { run, temporaryFolder } from './support/command.mjs';
+import { refuses, run, temporaryFolder } from './support/command.mjs';
 import { error } from './support/error.mjs';
 import { withExif } from './support/exif.mjs';
 import { expanded, readNpyMap } from './support/maps.mjs';
@@ -114,9 +114,7 @@ test('the command takes what capture apps write', async () => {
   assert.ok((await loss()) > 0.13 && (await loss()) < 0.25, String(await loss()));
   // The wrong file, and depths that are taken for heights.
   await writeFile(join(folder, 'other.json'), JSON.stringify({ name: 'a phone' }));
-  const other = await run(folder, ['dewarp', 'depth.exr', '--intrinsics', 'other.json', ...common, '-o', 'page.png']);
-  assert.equal(other.status, 3);
-  assert.match(other.stderr, /other\.json: there is no camera in it/);
+  await refuses(folder, [[['dewarp', 'depth.exr', '--intrinsics', 'other.json', ...common, '-o', 'page.png'], /other\.json: there is no camera in it/, 3]]);
   const heights = await run(folder, ['dewarp', 'depth.exr', '--no-data', '0', '--texture', 'photo.png', '-o', 'page.png']);
   assert.match(heights.stderr, /assumed: pixels are .* wide: .*too flat \(are these depths of a camera\?\) \(--pixel-size decides it\)/);
 });
@@ -352,7 +350,5 @@ test('a textured scan brings its photo along', async () => {
   assert.ok(found < 0.003, String(found));
   const bare = { ...surface, uvs: undefined, colors: undefined };
   await writeFile(join(folder, 'bare.glb'), direct.writeGlb(bare));
-  const refused = await run(folder, ['dewarp', 'bare.glb', '-o', 'page.png']);
-  assert.equal(refused.status, 2);
-  assert.match(refused.stderr, /has no texture of its own/);
+  await refuses(folder, [['dewarp bare.glb -o page.png', /has no texture of its own/]]);
 });

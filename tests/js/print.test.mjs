@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
-import { run, temporaryFolder } from './support/command.mjs';
+import { refuses, run, temporaryFolder } from './support/command.mjs';
 import { readPdfPicture, readPdfWords } from './support/drawings.mjs';
 import { error } from './support/error.mjs';
 import { depthCamera, depths, photo as taken, photoCamera } from './support/phone.mjs';
@@ -200,17 +200,15 @@ test('the command writes pages in true size', async () => {
   // Heights in whatever unit, and with one.
   await writeFile(join(folder, 'heights.npy'), direct.writeImage({ width: 64, height: 48, data: new Float32Array(64 * 48) }));
   const fromHeights = ['dewarp', 'heights.npy', '--texture', 'photo.png', '-o', 'page.pdf'];
-  const unknown = await run(folder, fromHeights);
-  assert.equal(unknown.status, 2);
-  assert.match(unknown.stderr, /--unit mm/);
+  await refuses(folder, [[fromHeights, /--unit mm/]]);
   await command(...fromHeights, '--pixel-size', '2.5', '--unit', 'mm');
   const page = await readPdfPicture(await readFile(join(folder, 'page.pdf')));
   // But for the last cells of the lattice, which is a hexagonal one.
   assert.ok(page.size[0] > 155 && page.size[0] <= 160 && page.size[1] > 112 && page.size[1] <= 120, String(page.size));
-  const metres = await run(folder, [...fromHeights, '--pixel-size', '2.5', '--unit', 'm']);
-  assert.equal(metres.status, 3);
-  assert.match(metres.stderr, /unit of the lengths/);
-  assert.match((await run(folder, [...fromHeights, '--unit', 'inch'])).stderr, /--unit must be mm or m/);
+  await refuses(folder, [
+    [[...fromHeights, '--pixel-size', '2.5', '--unit', 'm'], /unit of the lengths/, 3],
+    [[...fromHeights, '--unit', 'inch'], /--unit must be mm or m/],
+  ]);
 
   // By its edges.
   const line = (/** @type {number} */ y) => [[200, y], [500, y], [800, y]];

@@ -13,7 +13,7 @@ import { PLYLoader } from 'three/addons/loaders/PLYLoader.js';
 import { STLLoader } from 'three/addons/loaders/STLLoader.js';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
-import { run, temporaryFolder } from './support/command.mjs';
+import { run, silent, temporaryFolder } from './support/command.mjs';
 import { error } from './support/error.mjs';
 import { placeOf } from './support/shapes.mjs';
 
@@ -178,7 +178,7 @@ test('the command writes each by its ending', async () => {
   await writeFile(join(folder, 'in.npy'), heights);
   for (const name of ['ply', 'stl', 'glb', 'obj']) {
     const args = ['fit', 'in.npy', '--lattice', 'hex', '-o', `out.${name}`, '--no-data', '9'];
-    assert.deepEqual(await run(folder, args), { status: 0, stdout: '', stderr: '' });
+    assert.deepEqual(await run(folder, args), silent);
     const { attributes: { position }, index } = await load[name](await readFile(join(folder, `out.${name}`)));
     assert.equal(index ? position.count : position.count / 3, index ? used.length : 39, name);
     // Row 0 is at y = 0 here, and above it there is nothing.
@@ -188,7 +188,7 @@ test('the command writes each by its ending', async () => {
   // A mesh's colours stay with it.
   await writeFile(join(folder, 'coloured.ply'), files.ply);
   const args = ['fit', 'coloured.ply', '--unit', 'mm', '--view', '-y', '--spacing', '0.1', '--lambda', 'big', '-o', 'again.ply'];
-  assert.deepEqual(await run(folder, args), { status: 0, stdout: '', stderr: '' });
+  assert.deepEqual(await run(folder, args), silent);
   const { colors, positions } = direct.readMesh(await readFile(join(folder, 'again.ply')));
   assert.equal(colors?.length, positions.length);
   for (let i = 0; i < positions.length; i += 3) {

@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
-import { run, temporaryFolder } from './support/command.mjs';
+import { refuses, run, silent, temporaryFolder } from './support/command.mjs';
 import { error } from './support/error.mjs';
 import { withExif } from './support/exif.mjs';
 import { placeOf } from './support/shapes.mjs';
@@ -186,7 +186,6 @@ test('the command reads what lies beside a mesh, and nothing else', async () => 
   const inner = join(folder, 'scan');
   await mkdir(inner);
   for (const name of ['textured.obj', 'textured.mtl', 'sheet.png']) await copyFile(place(name), join(inner, name));
-  const silent = { status: 0, stdout: '', stderr: '' };
   /** @param {string} args */
   const command = (args) => run(folder, args.split(' '));
   assert.deepEqual(await command('fit scan/textured.obj --unit mm --resolution 40 --lambda big -o out.ply'), silent);
@@ -198,9 +197,10 @@ test('the command reads what lies beside a mesh, and nothing else', async () => 
   assert.deepEqual(direct.readMesh(await readFile(join(folder, 'out.glb'))).textures, [png]);
   assert.match((await command('info scan/textured.obj')).stdout, /^texture: +has coordinates, 1 picture$/m);
   // What the mesh is read with is not overwritten.
-  const over = await command('fit scan/textured.obj --resolution 40 --texture scan/sheet.png --mtl scan/textured.mtl -o out.obj');
-  assert.equal(over.status, 2);
-  assert.match(over.stderr, /scan\/textured\.mtl is a file that scan\/textured\.obj is read with/);
+  await refuses(folder, [[
+    'fit scan/textured.obj --resolution 40 --texture scan/sheet.png --mtl scan/textured.mtl -o out.obj',
+    /scan\/textured\.mtl is a file that scan\/textured\.obj is read with/,
+  ]]);
   assert.deepEqual(new Uint8Array(await readFile(join(inner, 'textured.mtl'))), new Uint8Array(mtl));
   // A path on another machine, and two that lead out of the folder.
   await writeFile(join(folder, 'secret.png'), png);
@@ -223,7 +223,6 @@ test('the command paints with a photo', async () => {
   const folder = await temporaryFolder();
   await writeFile(join(folder, 'scan.npy'), direct.writeImage({ width: 20, height: 16, data: new Float64Array(320).map((_, i) => (i % 20) / 9) }));
   for (const name of ['colour-tum.png', 'colour-tum.jpg', 'depth-tum.png']) await copyFile(place(name), join(folder, name));
-  const silent = { status: 0, stdout: '', stderr: '' };
   /** @param {string} args */
   const fit = (args) => run(folder, ['fit', ...args.split(' ')]);
   assert.deepEqual(await fit('scan.npy --texture colour-tum.png -o out.ply --lambda big'), silent);
@@ -242,22 +241,16 @@ test('the command paints with a photo', async () => {
   const text = await readFile(join(folder, 'out.obj'), 'utf8');
   assert.match(text, /^mtllib sub\/out\.mtl\nusemtl surface\nv \S+ \S+ \S+\n/);
   assert.match((await run(folder, ['info', 'out.obj'])).stdout, /1 picture$/m);
-  /** @type {[string, number, RegExp][]} */
-  const wrong = [
-    ['scan.npy --texture colour-tum.png -o out.stl', 2, /--texture/],
-    ['scan.npy --texture colour-tum.png -o out.ply --mtl a.mtl', 2, /--mtl/],
-    ['scan.npy -o out.obj --mtl a.mtl', 2, /--mtl/],
-    ['scan.npy --texture colour-tum.png -o out.obj --mtl a.txt', 2, /mtl must end/],
-    ['scan.npy --texture scan.npy -o out.obj', 3, /scan\.npy.*photos/],
-    // Whether who opens the .obj turns the picture cannot be known.
-    ['scan.npy --texture lying.jpg -o lying.obj --mtl lying.mtl', 3, /lying\.jpg.*Exif orientation 6.*save the photo upright/],
-  ];
   await writeFile(join(folder, 'lying.jpg'), withExif(await file('colour-tum.jpg'), { orientation: 6 }));
-  for (const [args, status, message] of wrong) {
-    const result = await fit(args);
-    assert.equal(result.status, status, `${args}: ${result.stderr}`);
-    assert.match(result.stderr, message);
-  }
+  await refuses(folder, [
+    ['fit scan.npy --texture colour-tum.png -o out.stl', /--texture/],
+    ['fit scan.npy --texture colour-tum.png -o out.ply --mtl a.mtl', /--mtl/],
+    ['fit scan.npy -o out.obj --mtl a.mtl', /--mtl/],
+    ['fit scan.npy --texture colour-tum.png -o out.obj --mtl a.txt', /mtl must end/],
+    ['fit scan.npy --texture scan.npy -o out.obj', /scan\.npy.*photos/, 3],
+    // Whether who opens the .obj turns the picture cannot be known.
+    ['fit scan.npy --texture lying.jpg -o lying.obj --mtl lying.mtl', /lying\.jpg.*Exif orientation 6.*save the photo upright/, 3],
+  ]);
   await assert.rejects(readFile(join(folder, 'lying.obj')), { code: 'ENOENT' });
   for (const args of ['--texture lying.jpg -o lying.ply', '--texture colour-tum.jpg -o lying.obj --mtl lying.mtl']) {
     assert.deepEqual(await fit(`scan.npy ${args}`), silent);

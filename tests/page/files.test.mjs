@@ -1,7 +1,7 @@
 /** Files in, by drop and by dialog, sound and broken; files out. */
 import assert from 'node:assert/strict';
 import { read, writeImage } from '../../pkg/index.js';
-import { grid, npy, obj, parseNpy, png16, ramp } from './support/files.mjs';
+import { grid, npy, parseNpy, png16, ramp } from './support/files.mjs';
 import { colouredPicture } from './support/photos.mjs';
 import { choose, doorTest, drop, dropAll, enterPages, open, reported, runBy, save, settled, sharedDoorTest, sharedTest } from './support/page.mjs';
 

@@ -1,4 +1,5 @@
 /** Runs the command: as a child process, or in this one. */
+import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { mkdtemp, rm } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
@@ -76,6 +77,25 @@ export function run(folder, args, options = {}) {
   const result = running.then(() => runHere(folder, args, options));
   running = result.catch(() => {});
   return result;
+}
+
+/** What is said and done by a command that has nothing to say. */
+export const silent = { status: 0, stdout: '', stderr: '' };
+
+/**
+ * Each of these command lines is refused by a message alone.
+ * @param {string} folder
+ * @param {readonly (readonly [line: string | readonly string[], message: RegExp, status?: number])[]} cases status 2 if nothing else is said
+ * @param {Parameters<typeof run>[2]} [options]
+ */
+export async function refuses(folder, cases, options) {
+  for (const [line, message, wanted = 2] of cases) {
+    const args = typeof line === 'string' ? line.split(' ').filter(Boolean) : [...line];
+    const { status, stdout, stderr } = await run(folder, args, options);
+    assert.deepEqual([status, stdout], [wanted, ''], `${args.join(' ')}: ${stderr}`);
+    assert.match(stderr, message);
+    assert.doesNotMatch(stderr, /\n\s+at /, 'no stack trace');
+  }
 }
 
 /** @type {(...of: Required<Parameters<typeof run>>) => ReturnType<typeof run>} */

@@ -1,4 +1,5 @@
 /** What it takes to look at a mesh. */
+import { gridMesh } from '../../util/grid-mesh.mjs';
 import { count, micros, ratio, seconds } from '../text.mjs';
 
 /** @typedef {import('../bench.mjs').Bench} Bench */
@@ -13,7 +14,8 @@ export async function meshes(bench) {
   const rows = [];
   let first;
   for (const cells of bench.quick ? [100, 300] : [220, 710]) {
-    const mesh = sheet(cells);
+    // A tilted square of so many cells along each side.
+    const mesh = gridMesh(cells + 1, cells + 1, (col, row) => [col / cells, row / cells, (col + 2 * row) / (4 * cells)]);
     const triangles = mesh.triangles.length / 3;
     const times = Array.from({ length: RUNS }, () => {
       const start = performance.now();
@@ -34,24 +36,4 @@ export async function meshes(bench) {
     columns: ['triangles', 'vertices', 'time', 'µs each', 'ratio'],
     rows,
   };
-}
-
-/**
- * A tilted square of so many cells along each side, of two triangles each.
- * @param {number} cells
- */
-function sheet(cells) {
-  const n = cells + 1;
-  const positions = new Float64Array(3 * n * n);
-  const triangles = new Uint32Array(6 * cells * cells);
-  for (let row = 0, at = 0; row < n; row++) {
-    for (let col = 0; col < n; col++) {
-      const i = row * n + col;
-      positions.set([col / cells, row / cells, (col + 2 * row) / (4 * cells)], 3 * i);
-      if (row === cells || col === cells) continue;
-      triangles.set([i, i + 1, i + n + 1, i, i + n + 1, i + n], at);
-      at += 6;
-    }
-  }
-  return { positions, triangles };
 }

@@ -84,8 +84,6 @@ test('the command takes depths with --intrinsics', async () => {
   await writeFile(join(folder, 'part.jpg'), await readFile(new URL('../data/grey.jpg', import.meta.url)));
   const { fx, fy, cx, cy } = camera;
   await writeFile(join(folder, 'phone.json'), JSON.stringify({ fx: 2 * fx, fy: 2 * fy, cx: 2 * cx + 0.5, cy: 2 * cy + 0.5, w: 2 * width, h: 2 * height }));
-  /** @param {string} args */
-  const fit = (args) => run(folder, ['fit', ...args.split(' ')]);
   const numbers = '--intrinsics 90,110,30,25';
   for (const [args, output] of [
     [`depth.npy ${numbers},0.001`, 'a.ply'],
@@ -96,7 +94,7 @@ test('the command takes depths with --intrinsics', async () => {
     [`rays.npy --intrinsics phone.json --ray --texture photo.jpg`, 'e.glb'],
     [`rays.npy ${numbers} --ray --texture photo.jpg --photo-camera phone.json`, 'f.glb'],
   ]) {
-    assert.deepEqual(await fit(`${args} --lambda big -o ${output}`), silent, args);
+    assert.deepEqual(await run(folder, `fit ${args} --lambda big -o ${output}`), silent, args);
     checkPlane(direct.readMesh(await readFile(join(folder, output))).positions, 1e-5);
   }
   assert.ok((await readFile(join(folder, 'd.glb'))).indexOf(photo) > 0);

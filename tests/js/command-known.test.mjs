@@ -19,7 +19,7 @@ const store = (name, input) => writeFile(join(folder, name), direct.writeImage(i
 const load = async (name) => direct.read(await readFile(join(folder, name)));
 /** Runs a command that has nothing to say but what is expected. @param {string} args @param {string} [expected] */
 async function command(args, expected = '') {
-  assert.deepEqual(await run(folder, args.split(' ')), { status: 0, stdout: expected, stderr: '' });
+  assert.deepEqual(await run(folder, args), { status: 0, stdout: expected, stderr: '' });
 }
 /** @param {string} args */
 async function report(args) {

@@ -380,10 +380,10 @@ test('a terminal is told of each command that it went well, and with --quiet nob
   await writeFile(join(folder, 'pins.npy'), direct.writeImage({ ...ramp, data: ramp.data.map((z, i) => (i % 7 === 0 ? z : NaN)) }));
   await writeFile(join(folder, 'photo.png'), direct.writeImage({ width: 24, height: 20, data: mask, noData: 0 }, { format: 'png' }));
   for (const [args, told] of cases) {
-    const { status, stderr } = await run(folder, args.split(' '), { terminal: true });
+    const { status, stderr } = await run(folder, args, { terminal: true });
     assert.equal(status, 0, stderr);
     assert.match(stderr.replace(/.*\r\x1b\[K/g, ''), told, args);
-    assert.equal((await run(folder, [...args.split(' '), '--quiet', '--force'], { terminal: true })).stderr, '', args);
+    assert.equal((await run(folder, `${args} --quiet --force`, { terminal: true })).stderr, '', args);
   }
   await silently(fit('rough.npy', '-o', 'out.npy', '--max-iterations', '2', '--gap=1e-6', '--quiet'));
   const refused = await run(folder, ['fit', 'gone.npy', '-o', 'done.npy', '--quiet']);

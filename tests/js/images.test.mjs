@@ -107,15 +107,12 @@ test('a worker finds the wasm where it is told to', async () => {
   found.dispose();
 });
 
-/** @param {string} line */
-const developableCommand = (line) => run(folder, line.split(' '));
-
 test('the command reads and writes them', async () => {
   const field = image(12, 10, (x, y) => Math.fround(plane(x, y)), 0.5);
   await writeFile(join(folder, 'plane.tif'), direct.writeImage(field, { format: 'tiff' }));
   await writeFile(join(folder, 'mask.exr'), direct.writeImage({ ...field, data: field.data.map((_, i) => (i < 24 ? 0 : 1)) }, { format: 'exr' }));
   for (const output of ['out.tif', 'out.tiff', 'out.exr']) {
-    const { status, stderr } = await developableCommand(`fit plane.tif -o ${output} --mask mask.exr`);
+    const { status, stderr } = await run(folder, `fit plane.tif -o ${output} --mask mask.exr`);
     assert.equal(status, 0, stderr);
     const back = direct.read(await readFile(join(folder, output)));
     assert.deepEqual([back.width, back.height, back.pixelSize], [12, 10, 0.5]);
@@ -126,22 +123,22 @@ test('the command reads and writes them', async () => {
 
 test('the command tells what is in a file', async () => {
   for (const name of ['several.npz', 'geo-metres.tif', 'colour.jpg']) await copyFile(join(root, 'tests/data', name), join(folder, name));
-  const arrays = await developableCommand('info several.npz');
+  const arrays = await run(folder, 'info several.npz');
   assert.match(arrays.stdout, /^format: +npz\narray: +depth, 3 × 4, f64\narray: +confidence, 3 × 4, u8\narray: +name, 1, <U1\n$/);
-  const one = await developableCommand('info several.npz --array confidence');
+  const one = await run(folder, 'info several.npz --array confidence');
   assert.match(one.stdout, /values: +3 to 80\n/);
-  const tiff = await developableCommand('info geo-metres.tif');
+  const tiff = await run(folder, 'info geo-metres.tif');
   for (const line of [
     /^format: +tiff$/m, /^size: +4 × 3 pixels$/m, /^data type: +f32$/m, /^values: +-1\.625 to 8$/m,
     /^no data: +1 pixels$/m, /^pixel size: +0\.5 m$/m, /^height scale: +1$/m,
   ]) assert.match(tiff.stdout, line);
   // Of levels, what they stand for.
   await writeFile(join(folder, 'steps.png'), direct.writeImage({ width: 3, height: 2, data: [1, 2, 3, 4, 5, 6] }, { format: 'png' }));
-  assert.match((await developableCommand('info steps.png')).stdout, /^heights: +1 to 6$/m);
+  assert.match((await run(folder, 'info steps.png')).stdout, /^heights: +1 to 6$/m);
   await refuses(folder, [['info colour.jpg', /colour\.jpg: JPEG: the pixel at row 0/, 3]]);
-  const several = await developableCommand('fit several.npz -o out.npy');
+  const several = await run(folder, 'fit several.npz -o out.npy');
   assert.match(several.stderr, /several\.npz: .*choose one by --array/);
-  assert.equal((await developableCommand('info geo-metres.tif --lambda 3')).status, 2);
+  assert.equal((await run(folder, 'info geo-metres.tif --lambda 3')).status, 2);
 });
 
 test('a size of pixels that is given is the one that is solved with and written', async () => {
@@ -153,15 +150,15 @@ test('a size of pixels that is given is the one that is solved with and written'
   await writeFile(join(folder, 'map.tif'), direct.writeImage({ ...field, pixelSize: undefined, georeference }, { format: 'tiff' }));
   const told = direct.read(await readFile(join(folder, 'map.tif')), { pixelSize: 2 });
   assert.deepEqual([told.width, told.height, told.pixelSize, told.unit], [24, 20, 2, 'm']);
-  const fit = await developableCommand('fit map.tif -o two.tif --pixel-size 2');
+  const fit = await run(folder, 'fit map.tif -o two.tif --pixel-size 2');
   assert.equal(fit.status, 0);
   assert.match(fit.stderr, /pixels are 2 wide, which was given, and not 0\.5 × 0\.6, which the file says/);
   const back = direct.read(await readFile(join(folder, 'two.tif')));
   assert.deepEqual([back.width, back.pixelSize, back.georeference?.transformation], [24, 2, [2, 0, 4e5, 0, -2, 5.4e6]]);
-  const solved = await developableCommand('fit map.tif -o own.tif --report own.json');
+  const solved = await run(folder, 'fit map.tif -o own.tif --report own.json');
   // What was assumed is the same wherever it is told.
   const { assumptions } = JSON.parse(await readFile(join(folder, 'own.json'), 'utf8'));
-  const info = await developableCommand('info map.tif');
+  const info = await run(folder, 'info map.tif');
   assert.deepEqual(assumptions, direct.read(await readFile(join(folder, 'map.tif'))).assumptions);
   assert.deepEqual(assumptions.map((/** @type {{ code: string }} */ { code }) => code), ['squarePixels']);
   for (const { words } of assumptions) assert.ok(solved.stderr.includes(`assumed: ${words} (--`) && info.stdout.includes(words), words);

@@ -167,17 +167,15 @@ test('the command fits a mesh in its own axes', async () => {
   await writeFile(join(folder, 'cloud.obj'), obj.split('\n').filter((line) => line.startsWith('v ')).join('\n'));
   await writeFile(join(folder, 'bad.ply'), 'ply\n');
   await writeFile(join(folder, 'image.npy'), 'none');
-  /** @param {string} args */
-  const fit = (args) => run(folder, ['fit', ...args.split(' ')]);
   for (const view of ['-z', '+y', '-1,-2,-4', 'best-fit']) {
-    assert.deepEqual(await fit(`plane.obj --unit mm --view ${view} --resolution 25 --lambda big -o out.obj`), silent);
+    assert.deepEqual(await run(folder, `fit plane.obj --unit mm --view ${view} --resolution 25 --lambda big -o out.obj`), silent);
     const points = verticesOf(await readFile(join(folder, 'out.obj'), 'utf8'));
     assert.ok(points.length > 100 && points.every((point) => offPlane(point) < 1e-6), view);
   }
-  assert.deepEqual(await fit('cloud.obj --unit mm --view best-fit --lambda big -o out.obj'), silent);
+  assert.deepEqual(await run(folder, 'fit cloud.obj --unit mm --view best-fit --lambda big -o out.obj'), silent);
   const points = verticesOf(await readFile(join(folder, 'out.obj'), 'utf8'));
   assert.ok(points.length > 20 && points.every((point) => offPlane(point) < 1e-6));
-  assert.deepEqual(await fit('plane.obj --unit mm --spacing 0.1 --lambda big -o out.npy'), silent);
+  assert.deepEqual(await run(folder, 'fit plane.obj --unit mm --spacing 0.1 --lambda big -o out.npy'), silent);
   await refuses(folder, [
     ['fit plane.obj --view top -o out.obj', /--view/],
     ['fit plane.obj --view 1,2 -o out.obj', /--view/],

@@ -121,11 +121,9 @@ test('the command', async () => {
   await writeFile(join(folder, 'edges.json'), file);
   await writeFile(join(folder, 'swapped.json'), JSON.stringify({ top: edges.bottom, bottom: edges.top }));
   await writeFile(join(folder, 'broken.json'), '{');
-  /** @param {string} args */
-  const command = (args) => run(folder, args.split(' '));
 
   const told = 'dewarp photo.png --edges edges.json --focal-length 480 --page a4 --dots 1 -o page.png --map map.npy --report report.json';
-  assert.match((await command(told)).stderr, /no line of text checks how the page is bent/);
+  assert.match((await run(folder, told)).stderr, /no line of text checks how the page is bent/);
   const flat = direct.readPhoto(await readFile(join(folder, 'page.png')));
   assert.deepEqual([flat.width, flat.height], [210, 297]);
   const map = await readFile(join(folder, 'map.npy'));
@@ -136,13 +134,13 @@ test('the command', async () => {
   const report = JSON.parse(await readFile(join(folder, 'report.json'), 'utf8'));
   assert.ok(report.verdict === 'unchecked' && report.unit === 'mm' && report.error < report.errorBound, JSON.stringify(report));
 
-  assert.equal((await command('dewarp photo.png --edges edges.json --field-of-view 67.4 --page 210x297 -o page.png')).status, 0);
+  assert.equal((await run(folder, 'dewarp photo.png --edges edges.json --field-of-view 67.4 --page 210x297 -o page.png')).status, 0);
 
   // Corners alone.
   await writeFile(join(folder, 'corners.json'), JSON.stringify({
     top: [[60, 60], [420, 60]], bottom: [[60, 580], [420, 580]],
   }));
-  const corners = await command('dewarp photo.png --edges corners.json --focal-length 480 -o page.png');
+  const corners = await run(folder, 'dewarp photo.png --edges corners.json --focal-length 480 -o page.png');
   assert.equal(corners.status, 0, corners.stderr);
   assert.match(corners.stderr, /outline may be wrong/, 'the photo shows no edge between them');
 
@@ -353,8 +351,7 @@ const table = { ...sheet, data: sheet.data.map((_, i) => (i % 4 === 3 ? 255 : 70
 test('the command makes one PDF of several photos, and names those without a page, which lose none of the others', async () => {
   const folder = await temporaryFolder();
   for (const [name, one] of Object.entries({ a: sheet, b: table, c: shaded })) await writeFile(join(folder, `${name}.png`), direct.writePhoto(one));
-  const command = (/** @type {string} */ args) => run(folder, args.split(' '));
-  const { status, stderr } = await command('dewarp a.png b.png c.png gone.png -o book.pdf --ink --page letter --report report.json');
+  const { status, stderr } = await run(folder, 'dewarp a.png b.png c.png gone.png -o book.pdf --ink --page letter --report report.json');
   assert.equal(status, 1);
   assert.match(stderr, /^developable: b\.png: no page was found in the photo/m);
   assert.match(stderr, /^developable: cannot read gone\.png: there is no such file/m);
@@ -368,7 +365,7 @@ test('the command makes one PDF of several photos, and names those without a pag
   assert.deepEqual(reports.map((/** @type {any} */ { input, light, failure }) => [input, light, failure !== undefined]),
     [['a.png', 'even', false], ['b.png', undefined, true], ['c.png', 'even', false], ['gone.png', undefined, true]]);
   // One photo without a format is on A4.
-  const one = await command('dewarp c.png -o one.pdf --light keep');
+  const one = await run(folder, 'dewarp c.png -o one.pdf --light keep');
   assert.equal(one.status, 0, one.stderr);
   const [{ size }] = await readPdf(await readFile(join(folder, 'one.pdf')));
   assert.ok(size.every((side, k) => Math.abs(side - [210, 297][k]) < 1), String(size));

@@ -395,10 +395,8 @@ test('plans at several λ', async () => {
 test('the command', async () => {
   const folder = await temporaryFolder();
   await writeFile(join(folder, 'card.npy'), direct.writeImage(card));
-  /** @param {string} args */
-  const command = (args) => run(folder, args.split(' '));
   const from = 'pattern card.npy --lattice hex --no-data 1e9 --as-is';
-  assert.deepEqual(await command(`${from} -o card.svg --scale ${scale} --report card.json`), silent);
+  assert.deepEqual(await run(folder, `${from} -o card.svg --scale ${scale} --report card.json`), silent);
   const drawing = direct.pattern(card, { scale });
   assert.deepEqual(new Uint8Array(await readFile(join(folder, 'card.svg'))), direct.writeSvg(drawing, { title: 'card' }));
   assert.match(await readFile(join(folder, 'card.svg'), 'utf8'), /<title>\s*card\s*<\/title>/);
@@ -408,24 +406,24 @@ test('the command', async () => {
   const { summary } = direct.pattern(card, { scale, refold: true });
   assert.deepEqual(report, { ...summary, assembly: [{ sheet: 0, joints: [] }], assumptions: [] });
   assert.ok(/** @type {number} */ (summary.refolding) < 1e-3);
-  assert.deepEqual(await command(`${from} -o card.pdf --scale ${scale} --stock letter`), silent);
+  assert.deepEqual(await run(folder, `${from} -o card.pdf --scale ${scale} --stock letter`), silent);
   assert.equal((await readPdf(await readFile(join(folder, 'card.pdf')))).length, drawing.summary.letter);
-  assert.deepEqual(await command(`${from} -o card.dxf --tabs 5`), silent);
+  assert.deepEqual(await run(folder, `${from} -o card.dxf --tabs 5`), silent);
   assert.equal(readDxf(await readFile(join(folder, 'card.dxf'))).unit, 4);
-  assert.deepEqual(await command('pattern card.npy --lattice hex --no-data 1e9 -o fitted.json --lambda big'), silent);
+  assert.deepEqual(await run(folder, 'pattern card.npy --lattice hex --no-data 1e9 -o fitted.json --lambda big'), silent);
   const fitted = JSON.parse(await readFile(join(folder, 'fitted.json'), 'utf8'));
   near(fitted.sheets[0].folds[0].length, flat.height / scale, 0.01);
-  assert.deepEqual(await command(`${from} -o made.svg --assembly made.glb --marks 20 --kerf 0.2`), silent);
+  assert.deepEqual(await run(folder, `${from} -o made.svg --assembly made.glb --marks 20 --kerf 0.2`), silent);
   assert.equal(String(await readFile(join(folder, 'made.glb'))).slice(0, 4), 'glTF');
   await writeFile(join(folder, 'pyramid.npy'), direct.writeImage(pyramid));
-  const { stderr } = await command('pattern pyramid.npy --lattice hex --as-is -o pyramid.svg');
+  const { stderr } = await run(folder, 'pattern pyramid.npy --lattice hex --as-is -o pyramid.svg');
   assert.match(stderr, /the angles of the pieces around a point differ .* by at most [\d.]+°/);
   await writeFile(join(folder, 'small.npy'), direct.writeImage(lattice(24, 20, (x) => -0.6 * Math.abs(x - 9.3))));
   const small = 'pattern small.npy --lattice hex --no-data 1e9';
-  const table = await command(`${small} --explore`);
+  const table = await run(folder, `${small} --explore`);
   assert.equal(table.status, 0, table.stderr);
   assert.match(table.stdout, /^lambda +smallest +sheets .*\n(.*\n){18}$/);
-  const one = await command(`${small} -o one.json --sheets 1 --report one-report.json`);
+  const one = await run(folder, `${small} -o one.json --sheets 1 --report one-report.json`);
   assert.deepEqual([one.status, one.stdout], [0, '']);
   assert.match(one.stderr, /1 sheet with --lambda \d/);
   assert.equal(JSON.parse(await readFile(join(folder, 'one-report.json'), 'utf8')).sheets, 1);

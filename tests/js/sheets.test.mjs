@@ -61,30 +61,28 @@ test('the commands', async () => {
   await writeFile(join(folder, 'scan.npy'), direct.writeImage(page));
   await writeFile(join(folder, 'photo.png'), direct.writePhoto(photo));
   const json = async (/** @type {string} */ name) => JSON.parse(await readFile(join(folder, name), 'utf8'));
-  /** @param {string} args */
-  const command = (args) => run(folder, args.split(' '));
 
-  assert.deepEqual(await command('analyze scan.npy -o figures.json --threshold 0.5 --lambda big'), silent);
+  assert.deepEqual(await run(folder, 'analyze scan.npy -o figures.json --threshold 0.5 --lambda big'), silent);
   const { input, output, deviation } = await json('figures.json');
   assert.ok(input.threshold === 0.5 && output.vertices === input.vertices && deviation.rms < 1);
-  assert.deepEqual(await command('analyze scan.npy -o figures.json --as-is'), silent);
+  assert.deepEqual(await run(folder, 'analyze scan.npy -o figures.json --as-is'), silent);
   assert.deepEqual(Object.keys(await json('figures.json')), ['input']);
 
-  assert.deepEqual(await command('unroll scan.npy -o sheet.obj --lambda big --report report.json'), silent);
+  assert.deepEqual(await run(folder, 'unroll scan.npy -o sheet.obj --lambda big --report report.json'), silent);
   const obj = await readFile(join(folder, 'sheet.obj'), 'utf8');
   const report = await json('report.json');
   assert.ok(report.verdict === 'unrolled' && report.distortion.rms < 0.01);
-  assert.deepEqual(await command('unroll scan.npy -o sheet.json --as-is'), silent);
+  assert.deepEqual(await run(folder, 'unroll scan.npy -o sheet.json --as-is'), silent);
   const sheet = await json('sheet.json');
   assert.equal(obj.match(/^v /gm)?.length, sheet.vertices.length);
   assert.equal(obj.match(/^f /gm)?.length, sheet.triangles.length / 3);
 
-  assert.deepEqual(await command('dewarp scan.npy --texture photo.png -o flat.png --trim --map map.npy'), silent);
+  assert.deepEqual(await run(folder, 'dewarp scan.npy --texture photo.png -o flat.png --trim --map map.npy'), silent);
   const flat = direct.readPhoto(await readFile(join(folder, 'flat.png')));
   const map = await readFile(join(folder, 'map.npy'));
   assert.ok(map.toString('latin1', 0, 128).includes(`(${flat.height}, ${flat.width}, 2)`));
   assert.equal((map.length - 8 * flat.width * flat.height) % 64, 0);
-  assert.deepEqual(await command('dewarp scan.npy --texture photo.png -o f.png --as-is --dots 1 --map map.json'), silent);
+  assert.deepEqual(await run(folder, 'dewarp scan.npy --texture photo.png -o f.png --as-is --dots 1 --map map.json'), silent);
   const places = await json('map.json');
   assert.equal(places.places.length, places.columns * places.rows);
   assert.ok(places.error.maximum <= 0.25 && places.unit === null, JSON.stringify(places.error));

@@ -186,16 +186,14 @@ test('the command reads what lies beside a mesh, and nothing else', async () => 
   const inner = join(folder, 'scan');
   await mkdir(inner);
   for (const name of ['textured.obj', 'textured.mtl', 'sheet.png']) await copyFile(place(name), join(inner, name));
-  /** @param {string} args */
-  const command = (args) => run(folder, args.split(' '));
-  assert.deepEqual(await command('fit scan/textured.obj --unit mm --resolution 40 --lambda big -o out.ply'), silent);
+  assert.deepEqual(await run(folder, 'fit scan/textured.obj --unit mm --resolution 40 --lambda big -o out.ply'), silent);
   const { colors = [], positions } = direct.readMesh(await readFile(join(folder, 'out.ply')));
   for (let i = 0; i < positions.length; i += 3) {
     shade(positions[i], positions[i + 1]).forEach((value, k) => assert.ok(Math.abs(colors[i + k] - value) < 0.003));
   }
-  assert.deepEqual(await command('fit scan/textured.obj --unit mm --resolution 40 --lambda big -o out.glb'), silent);
+  assert.deepEqual(await run(folder, 'fit scan/textured.obj --unit mm --resolution 40 --lambda big -o out.glb'), silent);
   assert.deepEqual(direct.readMesh(await readFile(join(folder, 'out.glb'))).textures, [png]);
-  assert.match((await command('info scan/textured.obj')).stdout, /^texture: +has coordinates, 1 picture$/m);
+  assert.match((await run(folder, 'info scan/textured.obj')).stdout, /^texture: +has coordinates, 1 picture$/m);
   // What the mesh is read with is not overwritten.
   await refuses(folder, [[
     'fit scan/textured.obj --resolution 40 --texture scan/sheet.png --mtl scan/textured.mtl -o out.obj',
@@ -207,15 +205,15 @@ test('the command reads what lies beside a mesh, and nothing else', async () => 
   await symlink(join(folder, 'secret.png'), join(inner, 'link.png'));
   for (const [name, found] of /** @type {const} */ ([['C:\\Users\\me\\sheet.png', true], ['../secret.png', false], ['link.png', false]])) {
     await writeFile(join(inner, 'textured.mtl'), `newmtl sheet\nmap_Kd ${name}\n`);
-    const { status, stderr } = await command('fit scan/textured.obj --unit mm --resolution 40 --lambda big -o out.ply');
+    const { status, stderr } = await run(folder, 'fit scan/textured.obj --unit mm --resolution 40 --lambda big -o out.ply');
     assert.equal(status, 0);
     if (found) assert.equal(stderr, '');
     else assert.match(stderr, new RegExp(`warning: scan/textured\\.obj names ".*${name.slice(-8)}", which is outside of its folder`));
-    const info = (await command('info scan/textured.obj')).stdout;
+    const info = (await run(folder, 'info scan/textured.obj')).stdout;
     assert.equal(/^missing: /m.test(info), !found, info);
   }
   for (const name of ['parts.gltf', ...[0, 1, 2, 3].map((i) => `gltf_buffer_${i}.bin`)]) await copyFile(place(name), join(inner, name));
-  assert.deepEqual(await command('fit scan/parts.gltf --resolution 40 --lambda big -o parts.glb'), silent);
+  assert.deepEqual(await run(folder, 'fit scan/parts.gltf --resolution 40 --lambda big -o parts.glb'), silent);
   isSheet(direct.readMesh(await readFile(join(folder, 'parts.glb'))).textures?.[0]);
 });
 
@@ -223,20 +221,18 @@ test('the command paints with a photo', async () => {
   const folder = await temporaryFolder();
   await writeFile(join(folder, 'scan.npy'), direct.writeImage({ width: 20, height: 16, data: new Float64Array(320).map((_, i) => (i % 20) / 9) }));
   for (const name of ['colour-tum.png', 'colour-tum.jpg', 'depth-tum.png']) await copyFile(place(name), join(folder, name));
-  /** @param {string} args */
-  const fit = (args) => run(folder, ['fit', ...args.split(' ')]);
-  assert.deepEqual(await fit('scan.npy --texture colour-tum.png -o out.ply --lambda big'), silent);
+  assert.deepEqual(await run(folder, 'fit scan.npy --texture colour-tum.png -o out.ply --lambda big'), silent);
   const { colors = [], positions } = direct.readMesh(await readFile(join(folder, 'out.ply')));
   for (let i = 0; i < positions.length; i += 3) {
     // 80 by 60 pixels on 20 by 16.
     const [u, v] = [4 * positions[i] - 0.5, 59.5 - (60 / 16) * positions[i + 1]];
     assert.ok(Math.abs(colors[i] - (3 * Math.max(u, 0)) / 255) < 0.01 && Math.abs(colors[i + 1] - (4 * v) / 255) < 0.01);
   }
-  assert.deepEqual(await fit('depth-tum.png --intrinsics 60,62,39.5,29.5,0.0002 --texture colour-tum.jpg -o out.glb --lambda big'), silent);
+  assert.deepEqual(await run(folder, 'fit depth-tum.png --intrinsics 60,62,39.5,29.5,0.0002 --texture colour-tum.jpg -o out.glb --lambda big'), silent);
   assert.equal(direct.readMesh(await readFile(join(folder, 'out.glb'))).textures?.length, 1);
   // An OBJ with the picture by way of an MTL, which is what this reads again.
   await mkdir(join(folder, 'sub'));
-  assert.deepEqual(await fit('scan.npy --texture colour-tum.png -o out.obj --mtl sub/out.mtl --lambda big'), silent);
+  assert.deepEqual(await run(folder, 'fit scan.npy --texture colour-tum.png -o out.obj --mtl sub/out.mtl --lambda big'), silent);
   assert.equal(await readFile(join(folder, 'sub/out.mtl'), 'utf8'), 'newmtl surface\nKd 1 1 1\nmap_Kd ../colour-tum.png\n');
   const text = await readFile(join(folder, 'out.obj'), 'utf8');
   assert.match(text, /^mtllib sub\/out\.mtl\nusemtl surface\nv \S+ \S+ \S+\n/);
@@ -253,7 +249,7 @@ test('the command paints with a photo', async () => {
   ]);
   await assert.rejects(readFile(join(folder, 'lying.obj')), { code: 'ENOENT' });
   for (const args of ['--texture lying.jpg -o lying.ply', '--texture colour-tum.jpg -o lying.obj --mtl lying.mtl']) {
-    assert.deepEqual(await fit(`scan.npy ${args}`), silent);
+    assert.deepEqual(await run(folder, `fit scan.npy ${args}`), silent);
   }
 });
 
@@ -294,7 +290,7 @@ test('the textures of a mesh are printed on its sheets', async () => {
 
   const folder = await temporaryFolder();
   await Promise.all(['textured.obj', 'textured.mtl', 'sheet.png'].map((name) => copyFile(place(name), join(folder, name))));
-  const made = await run(folder, 'pattern textured.obj --surface --as-is --scale 10 --printed -o sheets.pdf'.split(' '));
+  const made = await run(folder, 'pattern textured.obj --surface --as-is --scale 10 --printed -o sheets.pdf');
   assert.equal(made.status, 0, made.stderr);
   assert.ok((await readFile(join(folder, 'sheets.pdf'))).includes('/DCTDecode'));
 });

@@ -66,14 +66,15 @@ let running = Promise.resolve();
 /**
  * The command within this process: one at a time, and without the start of a process.
  * @param {string} folder
- * @param {string[]} args
+ * @param {string | readonly string[]} line words, or a text of words between spaces
  * @param {object} [options]
  * @param {AbortSignal} [options.signal] interrupts it
  * @param {Uint8Array | PassThrough} [options.input] what is on standard input, or that itself
  * @param {boolean} [options.terminal] whether somebody reads standard error on a terminal
  * @returns {Promise<{ status: number, stdout: string, stderr: string }>}
  */
-export function run(folder, args, options = {}) {
+export function run(folder, line, options = {}) {
+  const args = typeof line === 'string' ? line.split(' ').filter(Boolean) : [...line];
   const result = running.then(() => runHere(folder, args, options));
   running = result.catch(() => {});
   return result;
@@ -90,15 +91,14 @@ export const silent = { status: 0, stdout: '', stderr: '' };
  */
 export async function refuses(folder, cases, options) {
   for (const [line, message, wanted = 2] of cases) {
-    const args = typeof line === 'string' ? line.split(' ').filter(Boolean) : [...line];
-    const { status, stdout, stderr } = await run(folder, args, options);
-    assert.deepEqual([status, stdout], [wanted, ''], `${args.join(' ')}: ${stderr}`);
+    const { status, stdout, stderr } = await run(folder, line, options);
+    assert.deepEqual([status, stdout], [wanted, ''], `${line}: ${stderr}`);
     assert.match(stderr, message);
     assert.doesNotMatch(stderr, /\n\s+at /, 'no stack trace');
   }
 }
 
-/** @type {(...of: Required<Parameters<typeof run>>) => ReturnType<typeof run>} */
+/** @type {(folder: string, args: string[], options: Required<Parameters<typeof run>>[2]) => ReturnType<typeof run>} */
 async function runHere(folder, args, { signal, input, terminal = false }) {
   const stdin = input instanceof PassThrough ? input : new PassThrough().end(input);
   const [stdout, stderr] = [new PassThrough(), Object.assign(new PassThrough(), { isTTY: terminal })];

@@ -7,6 +7,7 @@ import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { refuses, run, silent, temporaryFolder } from './support/command.mjs';
 import { error } from './support/error.mjs';
+import { boxTo } from './support/shapes.mjs';
 
 after(() => developable.dispose());
 
@@ -253,13 +254,6 @@ test('the command lays whole meshes flat', async () => {
   assert.match(await readFile(join(folder, 'few.svg'), 'utf8'), /<svg/);
   assert.match((await run(folder, ['pattern', 'scan.ply', '--surface', '--explore', '--lambda', '3'])).stderr, /leave --lambda out/);
 });
-
-/** A box from the origin to a corner. @param {number[]} corner */
-function boxTo(corner) {
-  const positions = Float64Array.from({ length: 24 }, (_, i) => corner[i % 3] * ((Math.floor(i / 3) >> i % 3) & 1));
-  const quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-  return { positions, triangles: Uint32Array.from(quads.flatMap(([a, b, c, d]) => [a, b, c, a, c, d])) };
-}
 
 test('a block of 2 × 1 × 0.5, as programs for inches write it, is drawn once its unit is said', async () => {
   await direct.init();

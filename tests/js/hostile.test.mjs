@@ -9,7 +9,7 @@ import * as promise from '../../pkg/index.js';
 import { OPTIONS } from '../../pkg/options.js';
 import { initSync, loadSync } from '../../pkg/sync.js';
 import { boom, hostileValues, resizableBuffer, withGetter } from './support/hostile.mjs';
-import { cylinder, image, lattice } from './support/shapes.mjs';
+import { boxTo, cylinder, image, lattice } from './support/shapes.mjs';
 
 await direct.init();
 await direct.load('files', 'images', 'meshes', 'fitmesh', 'unroll', 'patterns');
@@ -53,11 +53,7 @@ const drawing = direct.pattern(hex);
 const { positions, triangles } = direct.readMesh(ply);
 const whole = { positions, triangles, confidence: new Float32Array(positions.length / 3).fill(1) };
 // Whose best pattern is found at once; that of `whole` is searched for half a second.
-const cube = {
-  positions: new Float64Array(24).map((_, i) => ((Math.floor(i / 3) >> (i % 3)) & 1) * 30),
-  triangles: new Uint32Array([0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5]),
-  confidence: new Float32Array(8).fill(1),
-};
+const cube = { ...boxTo([30, 30, 30]), confidence: new Float32Array(8).fill(1) };
 
 /**
  * What each function is called with when all is in order, the table of its options, the last argument, and some of them.

@@ -112,3 +112,10 @@ export function rms(found, expected) {
   for (let i = 0; i < expected.length; i += 1) sum += (found[i] - expected[i]) ** 2;
   return Math.sqrt(sum / expected.length);
 }
+
+/** A box from the origin to a corner. @param {number[]} corner */
+export function boxTo(corner) {
+  const positions = Float64Array.from({ length: 24 }, (_, i) => corner[i % 3] * ((Math.floor(i / 3) >> i % 3) & 1));
+  const quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+  return { positions, triangles: Uint32Array.from(quads.flatMap(([a, b, c, d]) => [a, b, c, a, c, d])) };
+}

@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
-import { refuses, run, silent, temporaryFolder } from './support/command.mjs';
+import { refuses, run, silent, succeeds, temporaryFolder } from './support/command.mjs';
 import { error } from './support/error.mjs';
 import { boxTo } from './support/shapes.mjs';
 
@@ -230,8 +230,7 @@ test('the command lays whole meshes flat', async () => {
   const folder = await temporaryFolder();
   await writeFile(join(folder, 'scan.ply'), direct.writePly(noisy));
   const text = async (/** @type {string} */ name) => readFile(join(folder, name), 'utf8');
-  const drawn = await run(folder, ['pattern', 'scan.ply', '-o', 'a.svg', '--surface', '--scale', '10', '--report', 'a.json']);
-  assert.equal(drawn.status, 0, drawn.stderr);
+  const drawn = await succeeds(folder, ['pattern', 'scan.ply', '-o', 'a.svg', '--surface', '--scale', '10', '--report', 'a.json']);
   assert.match(drawn.stderr, /sheets?, strained by .* slits? besides the creases/);
   const { sheets, strain } = JSON.parse(await text('a.json'));
   assert.ok(sheets >= 1 && sheets <= 4 && strain <= 0.01, `${sheets} sheets, ${strain}`);
@@ -264,8 +263,7 @@ test('a block of 2 × 1 × 0.5, as programs for inches write it, is drawn once i
   const asked = ['pattern', 'block.stl', '--surface', '--as-is', '-o', 'block.svg', '--report', 'block.json'];
   await refuses(folder, [[asked, /nothing says in what unit.*--unit mm, cm, m or inch.*--scale/]]);
   const area = async (/** @type {string[]} */ ...said) => {
-    const { status, stderr } = await run(folder, [...asked, ...said]);
-    assert.equal(status, 0, stderr);
+    await succeeds(folder, [...asked, ...said]);
     return JSON.parse(await readFile(join(folder, 'block.json'), 'utf8')).area;
   };
   // Two faces each of 2 × 1, 2 × 0.5 and 1 × 0.5 square inches.
@@ -283,8 +281,7 @@ test('a mesh of which one side hides much is taken whole without a flag, and so 
   const gable = { positions, triangles: Uint32Array.of(0, 1, 3, 0, 3, 2, 2, 3, 5, 2, 5, 4) };
   await writeFile(join(folder, 'gable.stl'), direct.writeStl(gable));
   const area = async (/** @type {string} */ file, /** @type {string[]} */ ...more) => {
-    const { status, stderr } = await run(folder, ['pattern', file, '-o', 'x.svg', '--report', 'x.json', '--unit', 'mm', ...more]);
-    assert.equal(status, 0, stderr);
+    const { stderr } = await succeeds(folder, ['pattern', file, '-o', 'x.svg', '--report', 'x.json', '--unit', 'mm', ...more]);
     return [JSON.parse(await readFile(join(folder, 'x.json'), 'utf8')).area, stderr];
   };
   const [whole, words] = await area('box.stl');

@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
-import { refuses, run, temporaryFolder } from './support/command.mjs';
+import { refuses, run, succeeds, temporaryFolder } from './support/command.mjs';
 import { readPdf } from './support/drawings.mjs';
 import { error } from './support/error.mjs';
 import { withExif } from './support/exif.mjs';
@@ -140,8 +140,7 @@ test('the command', async () => {
   await writeFile(join(folder, 'corners.json'), JSON.stringify({
     top: [[60, 60], [420, 60]], bottom: [[60, 580], [420, 580]],
   }));
-  const corners = await run(folder, 'dewarp photo.png --edges corners.json --focal-length 480 -o page.png');
-  assert.equal(corners.status, 0, corners.stderr);
+  const corners = await succeeds(folder, 'dewarp photo.png --edges corners.json --focal-length 480 -o page.png');
   assert.match(corners.stderr, /outline may be wrong/, 'the photo shows no edge between them');
 
   await refuses(folder, [
@@ -365,8 +364,7 @@ test('the command makes one PDF of several photos, and names those without a pag
   assert.deepEqual(reports.map((/** @type {any} */ { input, light, failure }) => [input, light, failure !== undefined]),
     [['a.png', 'even', false], ['b.png', undefined, true], ['c.png', 'even', false], ['gone.png', undefined, true]]);
   // One photo without a format is on A4.
-  const one = await run(folder, 'dewarp c.png -o one.pdf --light keep');
-  assert.equal(one.status, 0, one.stderr);
+  await succeeds(folder, 'dewarp c.png -o one.pdf --light keep');
   const [{ size }] = await readPdf(await readFile(join(folder, 'one.pdf')));
   assert.ok(size.every((side, k) => Math.abs(side - [210, 297][k]) < 1), String(size));
   await refuses(folder, [

@@ -6,7 +6,7 @@ import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
 import { normal, smoothNoise } from '../../tools/bench/phone/sensor.mjs';
-import { refuses, run, temporaryFolder } from './support/command.mjs';
+import { refuses, run, succeeds, temporaryFolder } from './support/command.mjs';
 import { error } from './support/error.mjs';
 import { withExif } from './support/exif.mjs';
 import { expanded, readNpyMap } from './support/maps.mjs';
@@ -75,15 +75,13 @@ test('the command takes what capture apps write', async () => {
   await writeFile(join(folder, 'camera_matrix.csv'), '1025.0, 0.0, 632.0\n0.0, 1025.0, 487.0\n0.0, 0.0, 1.0\n');
   await writeFile(join(folder, 'transforms.json'), JSON.stringify({ fl_x: 205, fl_y: 205, cx: 126, cy: 97, w: 256, h: 192, k1: 0 }));
   const common = ['--texture', 'photo.png', '--view', 'best-fit', '--lambda', 'big', '--dots', '1000'];
-  const done = await run(folder, ['dewarp', 'depth.exr', '--intrinsics', 'camera_matrix.csv', ...common, '-o', 'page.png', '--map', 'map.json']);
-  assert.equal(done.status, 0, done.stderr);
+  await succeeds(folder, ['dewarp', 'depth.exr', '--intrinsics', 'camera_matrix.csv', ...common, '-o', 'page.png', '--map', 'map.json']);
   const found = displacement(photoCamera, await mapIn(folder));
   assert.ok(found < 0.003, String(found));
   // In full and on a grid.
-  const full = await run(folder, [
+  const full = await succeeds(folder, [
     'dewarp', 'depth.exr', '--intrinsics', 'transforms.json', ...common, '-o', 'page.png', '--map', 'map.npy',
   ]);
-  assert.equal(full.status, 0, full.stderr);
   const [flat, bytes] = [await mapIn(folder), await readFile(join(folder, 'map.npy'))];
   const { map, ...size } = readNpyMap(bytes);
   const { width: wide, height: tall, places, error: stated } = flat;
@@ -100,8 +98,7 @@ test('the command takes what capture apps write', async () => {
   // With the table around it, at the page's own height, it is no page that is made flat, and that is said.
   await writeFile(join(folder, 'table.exr'), direct.writeImage({ width, height, data: data.map((depth) => depth || 0.44) }, { format: 'exr' }));
   const table = ['dewarp', 'table.exr', '--intrinsics', 'transforms.json', ...common, '-o', 'page.png'];
-  const all = await run(folder, table);
-  assert.equal(all.status, 0, all.stderr);
+  const all = await succeeds(folder, table);
   assert.match(all.stderr, /the whole depth image was flattened.*--crop/);
   const cropped = [...table, '--crop', cornersAt(0.1, 0.9).join(), '--report', 'report.json'];
   const loss = async () => JSON.parse(await readFile(join(folder, 'report.json'), 'utf8')).loss;
@@ -168,13 +165,10 @@ test('a part of the photo, with straight edges, and no table beside it', async (
   await writeFile(join(folder, 'depth.exr'), direct.writeImage({ width, height, data: data.map((depth) => depth || 0.55) }, { format: 'exr' }));
   await writeFile(join(folder, 'photo.png'), direct.writePhoto(picture));
   const corners = cornersAt(0.1, 0.9);
-  const command = async (/** @type {string[]} */ ...args) => {
-    const done = await run(folder, [
-      'dewarp', 'depth.exr', '--intrinsics', '205,205,126,97', '--texture', 'photo.png', '--view', 'best-fit', '--lambda', 'big',
-      '--crop', corners.join(), '-o', 'page.png', '--map', 'map.json', ...args,
-    ]);
-    assert.equal(done.status, 0, done.stderr);
-  };
+  const command = (/** @type {string[]} */ ...args) => succeeds(folder, [
+    'dewarp', 'depth.exr', '--intrinsics', '205,205,126,97', '--texture', 'photo.png', '--view', 'best-fit', '--lambda', 'big',
+    '--crop', corners.join(), '-o', 'page.png', '--map', 'map.json', ...args,
+  ]);
   // As a rectangle: eight tenths of the page, in metres, less what straight chords in the photo cut off its bent edges.
   await command('--trim', '--deskew', '--report', 'report.json');
   const page = await mapIn(folder);
@@ -262,8 +256,7 @@ test('the command takes confidences and masks with depths', async () => {
   const common = ['fit', 'depth.exr', '--intrinsics', '205,205,126,97', '--lambda', 'big', '-o', 'page.ply'];
   /** Extents to the right, in metres. @type {(args: string[]) => Promise<number>} */
   const right = async (args) => {
-    const done = await run(folder, [...common, ...args]);
-    assert.equal(done.status, 0, done.stderr);
+    await succeeds(folder, [...common, ...args]);
     const { positions } = direct.readMesh(await readFile(join(folder, 'page.ply')));
     return Math.max(...positions.filter((_, i) => i % 3 === 0));
   };
@@ -343,8 +336,7 @@ test('a textured scan brings its photo along', async () => {
   const texture = direct.writePhoto(picture);
   const { camera, ...surface } = direct.fit(seen, { lambda: 'big' });
   await writeFile(join(folder, 'scan.glb'), direct.writeGlb({ ...surface, texture }));
-  const done = await run(folder, ['dewarp', 'scan.glb', '--view', 'best-fit', '--lambda', 'big', '-o', 'page.png', '--map', 'map.json']);
-  assert.equal(done.status, 0, done.stderr);
+  await succeeds(folder, ['dewarp', 'scan.glb', '--view', 'best-fit', '--lambda', 'big', '-o', 'page.png', '--map', 'map.json']);
   const flat = await mapIn(folder);
   const found = displacement(photoCamera, flat);
   assert.ok(found < 0.003, String(found));

@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
-import { refuses, run, temporaryFolder } from './support/command.mjs';
+import { refuses, succeeds, temporaryFolder } from './support/command.mjs';
 import { readPdfPicture, readPdfWords } from './support/drawings.mjs';
 import { error } from './support/error.mjs';
 import { depthCamera, depths, photo as taken, photoCamera } from './support/phone.mjs';
@@ -180,11 +180,7 @@ test('the command writes pages in true size', async () => {
   await writeFile(join(folder, 'camera.json'), JSON.stringify({ fx: 205, fy: 205, cx: 126, cy: 97, width: 256, height: 192 }));
   const common = ['--texture', 'photo.png', '--lambda', 'big', '--view', 'best-fit'];
   const fromDepth = ['dewarp', 'depth.exr', '--intrinsics', 'camera.json', ...common];
-  /** @param {string[]} args */
-  const command = async (...args) => {
-    const done = await run(folder, args);
-    assert.equal(done.status, 0, done.stderr);
-  };
+  const command = (/** @type {string[]} */ ...args) => succeeds(folder, args);
   await command(...fromDepth, '-o', 'page.pdf', '--quality', '80');
   const { size, width: wide, height: tall } = await readPdfPicture(await readFile(join(folder, 'page.pdf')));
   for (const [k, side] of [210, 297].entries()) assert.ok(size[k] < side + 1 && size[k] > side - 12, String(size));

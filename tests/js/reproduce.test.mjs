@@ -10,7 +10,7 @@ import { optionsOf } from '../../pkg/options.js';
 import { asCode, asCommand } from '../../www/reproduce.js';
 import { latticePositions } from '../../www/surface/lattice.js';
 import { sidesOf } from '../../www/surface/triangles.js';
-import { parse, run, temporaryFolder } from './support/command.mjs';
+import { parse, succeeds, temporaryFolder } from './support/command.mjs';
 import { image, lattice, plane } from './support/shapes.mjs';
 import { pkg } from './support/paths.mjs';
 
@@ -59,8 +59,7 @@ test('the command names the file, how it was read and the options, and runs', as
     { command, input, output, pixelSize, heightScale, noData, lambda, energy, gap, spacing, occlusionThreshold },
     { command: 'fit', input: FILE, output: "Tom's $HOME (1)-developable.obj", pixelSize: 0.5, heightScale: -2, noData: 0, lambda: 1e5, energy: 'nuclear', gap: 0.01, spacing: 1, occlusionThreshold: 4e4 },
   );
-  const { status, stderr } = await run(folder, args);
-  assert.equal(status, 0, stderr);
+  await succeeds(folder, args);
 });
 
 test('what the command assumes of a file by itself is not given to it', async () => {
@@ -75,8 +74,7 @@ test('what the command assumes of a file by itself is not given to it', async ()
 test('a file whose name begins with a dash is no flag', async () => {
   const args = await argumentsOf(asCommand(resultOf(dashed)));
   assert.deepEqual(args.slice(args.indexOf('--no-data'), args.indexOf('--no-data') + 2), ['--no-data', 'none']);
-  const { status, stderr } = await run(folder, args);
-  assert.equal(status, 0, stderr);
+  await succeeds(folder, args);
 });
 
 test('the code of a file and of an example runs', async () => {

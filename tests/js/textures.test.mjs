@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
 import * as direct from '../../pkg/direct.js';
-import { refuses, run, silent, temporaryFolder } from './support/command.mjs';
+import { refuses, run, silent, succeeds, temporaryFolder } from './support/command.mjs';
 import { error } from './support/error.mjs';
 import { withExif } from './support/exif.mjs';
 import { placeOf } from './support/shapes.mjs';
@@ -290,7 +290,6 @@ test('the textures of a mesh are printed on its sheets', async () => {
 
   const folder = await temporaryFolder();
   await Promise.all(['textured.obj', 'textured.mtl', 'sheet.png'].map((name) => copyFile(place(name), join(folder, name))));
-  const made = await run(folder, 'pattern textured.obj --surface --as-is --scale 10 --printed -o sheets.pdf');
-  assert.equal(made.status, 0, made.stderr);
+  await succeeds(folder, 'pattern textured.obj --surface --as-is --scale 10 --printed -o sheets.pdf');
   assert.ok((await readFile(join(folder, 'sheets.pdf'))).includes('/DCTDecode'));
 });

@@ -4,7 +4,7 @@ import { readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
 import * as developable from '../../pkg/index.js';
-import { run, temporaryFolder } from './support/command.mjs';
+import { run, succeeds, temporaryFolder } from './support/command.mjs';
 import { root } from './support/paths.mjs';
 
 after(() => developable.dispose());
@@ -107,8 +107,7 @@ test('the command takes a file by what is in it where its name does not tell', a
     ['scan.asc', cloud, /none: a point cloud/], ['matrix.txt', matrix, /12 × 9 pixels/],
   ])) {
     await writeFile(join(folder, name), text);
-    const { status, stdout, stderr } = await run(folder, ['info', name]);
-    assert.equal(status, 0, stderr);
+    const { stdout } = await succeeds(folder, ['info', name]);
     assert.match(stdout, told);
   }
 });

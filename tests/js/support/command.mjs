@@ -80,6 +80,13 @@ export function run(folder, line, options = {}) {
   return result;
 }
 
+/** The command, which has to succeed. @type {typeof run} */
+export async function succeeds(...of) {
+  const result = await run(...of);
+  assert.equal(result.status, 0, `${of[1]}: ${result.stderr}`);
+  return result;
+}
+
 /** What is said and done by a command that has nothing to say. */
 export const silent = { status: 0, stdout: '', stderr: '' };
 

@@ -134,6 +134,7 @@ export const MESH_FIT_WORDS = {
   kept: 'Cancelled. You see the surface from before.',
   solving: 'Solving the whole mesh…',
   solved: 'Done: the whole mesh.',
+  collapsed: (/** @type {string} */ share) => `The shape is lost: ${share} of its area is left. Take a larger λ.`,
   unsolved: 'The mesh cannot be solved as a whole.',
   hidden: (/** @type {string} */ share) => `From this side ${share} of the surface is hidden. “Whole mesh” solves all of it.`,
   noNoise: 'The mesh has no noise that is worth removing, and is left as it is.',
@@ -146,7 +147,7 @@ export const MESH_FIT_WORDS = {
   entangled: (n, place) => `${countOf(n, 'triangle is', 'triangles are')} folded over or cross others, the first near (${place}). Repair the mesh there.`,
   flipped: (/** @type {number} */ n) => `${countOf(n, 'triangle')} of the result ${n === 1 ? 'is' : 'are'} folded over.`,
   /** @param {number} passes @param {string} gap */
-  proof: (passes, gap) => `The last of ${count(passes)} steps is proven within ${gap} of its optimum.`,
+  proof: (passes, gap) => `${passes === 1 ? 'The step' : `The last of ${count(passes)} steps`} is proven within ${gap} of its optimum.`,
 };
 
 /** Labels and messages about sheets to cut out. */
@@ -311,7 +312,7 @@ export function lambdaChoiceInWords({ report: { lambda, lambdaChoice }, pixelDis
 
 /** How λ of a whole mesh was chosen automatically. @param {MeshSurface['report']} report */
 export function meshLambdaChoiceInWords({ lambda, sigma, stopReason }) {
-  if (stopReason === 'noNoise') return `${MESH_FIT_WORDS.noNoise} The slider smooths it.`;
+  if (stopReason === 'noNoise') return 'There is no noise to choose λ by. The slider smooths it all the same.';
   if (sigma === undefined) return `Too few vertices to measure their noise: λ = ${shortLambda(lambda)}.`;
   return `Chosen automatically. Noise: ${number(sigma)} along the normals, in the unit of the mesh.`;
 }

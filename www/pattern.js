@@ -84,17 +84,25 @@ export async function cutSheets(analyses, result, { side, ...given }, tell) {
 }
 
 /** The number of sheets, folds, seams and slits in sentences, and what is missing. @param {Drawing} drawing */
-export function sheetsInWords({ summary: { sheets, seams, folds, slits, strain, mismatch, missing, untabbed, unlettered } }) {
+export const sheetsInWords = (drawing) => [countsInWords(drawing), ...faultsInWords(drawing)].join(' ');
+
+/** How many sheets, folds and cuts a drawing has, in one or two sentences. @param {Drawing} drawing */
+export function countsInWords({ summary: { sheets, seams, folds, slits } }) {
   const cut = seams === 0 ? '' : `, to be joined along ${seams === 1 ? 'one cut' : `${count(seams)} cuts`}`;
   const fold = folds === 0 ? '' : `, with ${folds === 1 ? 'one fold' : `${count(folds)} folds`}`;
   const slit = slits === 0 ? '' : ` ${slits === 1 ? 'One cut' : `${count(slits)} cuts`}, then ${sheets === 1 ? 'it lies' : 'they lie'} flat.`;
-  const stretch = strain > STRAIN_LIMITS[0] ? ` Paper has to give by ${percent(strain)}: use something that stretches, or a smaller λ.` : '';
-  const misfit = mismatch > MAX_FITTING_MISMATCH ? ` Joints will not fit: the two sides of one differ in length by ${percent(mismatch)}.` : '';
+  return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}${fold}${cut}.${slit}`;
+}
+
+/** What is wrong with the sheets of a drawing, and what they lack: sentences. @param {Drawing} drawing */
+export function faultsInWords({ summary: { strain, mismatch, missing, untabbed, unlettered } }) {
+  const stretch = strain > STRAIN_LIMITS[0] ? `Paper has to give by ${percent(strain)}: use something that stretches, or a smaller λ.` : '';
+  const misfit = mismatch > MAX_FITTING_MISMATCH ? `Joints will not fit: the two sides of one differ in length by ${percent(mismatch)}.` : '';
   const lost = (missing?.area ?? 0) + (missing?.stepArea ?? 0);
-  const without = lost > 0 ? ` ${number(lost / 100, 2)} cm² of the surface, at ragged borders or steps, are on no sheet.` : '';
-  const bare = untabbed > 0 ? ` ${untabbed === 1 ? 'One cut has' : `${count(untabbed)} cuts have`} no room for a tab.` : '';
-  const nameless = unlettered > 0 ? ` ${unlettered === 1 ? 'One cut has' : `${count(unlettered)} cuts have`} no room for a letter.` : '';
-  return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}${fold}${cut}.${slit}${stretch}${misfit}${without}${bare}${nameless}`;
+  const without = lost > 0 ? `${number(lost / 100, 2)} cm² of the surface, at ragged borders or steps, are on no sheet.` : '';
+  const bare = untabbed > 0 ? `${untabbed === 1 ? 'One cut has' : `${count(untabbed)} cuts have`} no room for a tab.` : '';
+  const nameless = unlettered > 0 ? `${unlettered === 1 ? 'One cut has' : `${count(unlettered)} cuts have`} no room for a letter.` : '';
+  return [misfit, stretch, without, bare, nameless].filter(Boolean);
 }
 
 /** Figures of a drawing: names and values. @param {Drawing} drawing @returns {[string, string][]} */

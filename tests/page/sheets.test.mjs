@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { dispose, pattern } from '../../pkg/index.js';
 import { sheetsInWords } from '../../www/pattern.js';
+import { meshFitSummary } from '../../www/views/mesh-fit.js';
 import { edgeAt, parsePairs, togglePair } from '../../www/sheet-edges.js';
 import { cuboid } from './support/box.mjs';
 import { obj } from './support/files.mjs';
@@ -56,6 +57,13 @@ test('what of a surface is on no sheet is said, and which cuts have no tab or le
   assert.match(said({ missing: { vertices: 4, area: 1200, steps: 1, stepArea: 300 }, untabbed: 1 }), /15 cm² of the surface.* are on no sheet\. One cut has no room for a tab\.$/);
 });
 
+test('a shape that a solve has lost is called lost', () => {
+  const report = { passes: [], flipped: [0, 0], entangled: [], repairs: { turned: 0, degenerate: 0, repeated: 0, branched: 0 } };
+  const said = (/** @type {number} */ area) => meshFitSummary(/** @type {any} */ ({ report: { ...report, area: [200, area] } })).replaceAll('\u00a0', ' ');
+  assert.equal(said(190), '');
+  assert.equal(said(6), 'The shape is lost: 3 % of its area is left. Take a larger λ.');
+});
+
 pageTest('less detail makes simpler pieces while their sheets are shown', async (page) => {
   const [side, written] = [page.getByLabel('Longer side when finished, mm'), page.locator('#save-size')];
   await page.locator('#end-sheets').click();
@@ -66,6 +74,12 @@ pageTest('less detail makes simpler pieces while their sheets are shown', async 
   await written.filter({ hasText: /-1e3-sheets\.pdf, / }).waitFor();
   assert.equal(await side.inputValue(), '150');
   assert.match(await page.locator('#result-caption').innerText(), /1e3/);
+  // However much is said, it has room.
+  const hidden = await page.locator('.sheets-options .said').evaluate((said) => {
+    said.textContent = 'Many words. '.repeat(60);
+    return said.scrollHeight - said.clientHeight;
+  });
+  assert.equal(hidden, 0);
 });
 
 doorTest('a fold that is clicked in the drawing is cut', async (page) => {

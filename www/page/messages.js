@@ -16,7 +16,7 @@ export const PAGE_WORDS = {
   looksLike: (/** @type {string} */ paper) => `Looks like ${paper}: use it`,
   light: 'Removes shadows and colour casts. Very pale print may vanish.',
   unfoundFlat: 'No page was found in this photo',
-  keptLight: 'The page is dark or not mostly paper, so I kept its light.',
+  keptLight: 'Little of the page is plain, light paper, so I kept its light.',
 };
 
 /** Texts about several photos that become one PDF. */

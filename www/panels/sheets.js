@@ -4,7 +4,7 @@ import { between, fieldsOf } from '../fields.js';
 import { number } from '../format.js';
 import { History } from '../history.js';
 import { keep, kept } from '../kept.js';
-import { assemblyOf, buildSteps, drawingImage, MAX_SIDE_MM, MIN_SIDE_MM, MM_PER_UNIT, sheetFigures, sheetsInWords, suggestedSide, trueSide } from '../pattern.js';
+import { assemblyOf, buildSteps, countsInWords, drawingImage, faultsInWords, MAX_SIDE_MM, MIN_SIDE_MM, MM_PER_UNIT, sheetFigures, suggestedSide, trueSide } from '../pattern.js';
 import { hasCode, plainMessage } from '../error-messages.js';
 import { SAVE_WORDS, SHEET_WORDS } from '../messages.js';
 import { PAPERS } from '../page/paper.js';
@@ -141,7 +141,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     fields.control('sheet-side').dispatchEvent(new Event('input', { bubbles: true }));
   }, ''), { hidden: true });
   const about = make('div', '');
-  const pageWarning = Object.assign(make('p', 'guess small'), { hidden: true });
+  const warning = Object.assign(make('p', 'guess small'), { hidden: true });
   /** @type {Promise<Drawing>} */
   let drawing = new Promise(() => {});
   /** Ends without a drawing: writers of files then report the reason. @param {string} reason */
@@ -164,7 +164,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
   /** Takes away what is said of the last drawing. */
   const clear = () => {
     element('save-title', HTMLElement).textContent = SHEET_WORDS.title;
-    pageWarning.hidden = fit.hidden = true;
+    warning.hidden = fit.hidden = true;
     about.replaceChildren();
   };
   /** Shows the size of the finished surface and the number of pages. @param {Drawing} finished */
@@ -182,9 +182,9 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     const fitting = Math.floor(side() * Math.min(...shares));
     fit.hidden = !(pages > finished.sheets.length && fitting >= MIN_SIDE_MM && fitting < side());
     [fit.value, fit.textContent] = [String(fitting), SHEET_WORDS.fit(number(fitting, 4))];
-    const warnings = [...(pages > MAX_EXPECTED_PAGES ? [SHEET_WORDS.manyPages(pages)] : []), ...(smallest < MIN_HANDY_PIECE_MM ? [SHEET_WORDS.small(number(smallest, 2))] : summary.seams > MAX_EASY_JOINTS ? [SHEET_WORDS.long(summary.seams)] : [])];
-    pageWarning.hidden = warnings.length === 0;
-    pageWarning.textContent = warnings.join(' ');
+    const warnings = [...faultsInWords(finished), ...(pages > MAX_EXPECTED_PAGES ? [SHEET_WORDS.manyPages(pages)] : []), ...(smallest < MIN_HANDY_PIECE_MM ? [SHEET_WORDS.small(number(smallest, 2))] : summary.seams > MAX_EASY_JOINTS ? [SHEET_WORDS.long(summary.seams)] : [])];
+    warning.hidden = warnings.length === 0;
+    warning.textContent = warnings.join(' ');
   };
 
   const draw = async () => {
@@ -225,7 +225,9 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
         if (!edges.hidden) toggleEdge(finished, [(offsetX / image.clientWidth) * finished.width, (1 - offsetY / image.clientHeight) * finished.height]);
       });
       preview.replaceChildren(image);
-      status.textContent = sheetsInWords(finished);
+      // What is enlarged is seen from its middle on.
+      preview.scrollTo((preview.scrollWidth - preview.clientWidth) / 2, (preview.scrollHeight - preview.clientHeight) / 2);
+      status.textContent = countsInWords(finished);
       about.replaceChildren(figures(sheetFigures(finished)), make('ol', 'small', ...buildSteps(finished).map((step) => make('li', '', step))));
     } catch (error) {
       if (requested !== drawing) return;
@@ -281,7 +283,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
   }, SHEET_WORDS.enlarge);
   const options = make('div', 'sheets-options',
     status,
-    pageWarning,
+    warning,
     legend,
     enlarge,
     fit,
@@ -311,7 +313,11 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     stem: `${stem}-sheets`,
     ready: () => drawing,
     // A pattern that is still being computed would delay the next analysis.
-    closed: stop,
+    closed: () => {
+      stop();
+      // What was chosen last is kept, though it was not drawn yet.
+      if (!fields.check()) keepOptions();
+    },
     extra: [make('div', 'sheets', preview, options)],
     formats: [
       { value: 'pdf', name: 'PDF', words: SHEET_WORDS.pdf, type: 'application/pdf',

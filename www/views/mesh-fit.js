@@ -5,6 +5,9 @@ import { interpolateAt } from '../surface/triangles.js';
 
 /** @import {Place} from '../surface/scene.js' */
 
+/** Share of a mesh's area below which its shape is lost: flattened twice over, a surface has half of it. */
+const MIN_KEPT_AREA_SHARE = 0.5;
+
 /**
  * The reading under the pointer: the place, its displacement by the solve, and the value of the view.
  * @param {Mesh} mesh
@@ -24,10 +27,12 @@ export function readingAt(mesh, surface, place, value = '') {
 
 /** The summary of a solve in sentences. @param {MeshSurface} surface */
 export function meshFitSummary({ report }) {
-  const { passes, stopReason, flipped, entangled, repairs: { turned, degenerate, repeated, branched } } = report;
+  const { passes, stopReason, area, flipped, entangled, repairs: { turned, degenerate, repeated, branched } } = report;
   const gap = passes.at(-1)?.gap;
   const mended = turned + degenerate + repeated;
+  const left = area[1] / area[0];
   return [
+    left < MIN_KEPT_AREA_SHARE ? MESH_FIT_WORDS.collapsed(percent(left)) : '',
     gap === undefined ? '' : MESH_FIT_WORDS.proof(passes.length, percent(gap)),
     stopReason === 'maxIterations' || stopReason === 'diverged' || stopReason === 'noNoise' ? MESH_FIT_WORDS[stopReason] : '',
     mended > 0 ? MESH_FIT_WORDS.repaired(mended) : '',

@@ -15,8 +15,8 @@ const MAX_COHERENCE: f64 = 0.8;
 /// (`benches/scenes.md`).
 const MAX_MISFIT: f64 = 0.065;
 
-/// Minimum number of scales that a covariance explains which does not explain the smallest discs: it has two parameters, and
-/// two more scales are to confirm it (`benches/verdicts.md`, Smooth noise).
+/// Minimum number of scales that a covariance explains which does not explain the smallest discs of a camera's heights: it has two
+/// parameters, and two more scales are to confirm it (`benches/verdicts.md`, Smooth noise).
 const MIN_LATE_SCALES: usize = 4;
 
 /// Maximum ratio of the curvatures across the rulings to those along them where a covariance does not explain the smallest discs:
@@ -59,16 +59,19 @@ pub(super) struct CorrelatedNoise {
 
 impl CorrelatedNoise {
     /// Estimates the noise of heights from their curvatures at scales from small discs to large ones; `None` if a shape
-    /// hides it. Noise as smooth as the longest length that is tried, or smoother, is a shape unless it `may_be_smoothest`.
+    /// hides it. A shape beside the noise adds to the curvatures of large discs, so that the covariance counts that explains the
+    /// largest discs with all smaller ones.
     ///
-    /// A shape beside the noise adds to the curvatures of large discs, and rougher noise beside smooth noise, as rounding is, to
-    /// those of the smallest ones. So the covariance counts that explains the largest discs, with as many smaller ones as it can.
+    /// Where a camera has measured the heights, the covariance need not explain the smallest discs, which show the rounding to whole
+    /// millimetres as well, and noise may be as smooth as the longest length that is tried, or smoother. Elsewhere that is a shape:
+    /// a terrain bends more at every smaller scale, too (`benches/scenes.md`, Terrain).
+    ///
     /// Noise of scan lines bends across them at every scale, as a shape does, but not alike in discs side by side: there it is
     /// measured in the direction in which it bends most.
     pub(super) fn from_scales(
         scales: &[CurvatureScale],
         discs: &[Disc],
-        may_be_smoothest: bool,
+        is_measured: bool,
     ) -> Option<Self> {
         let mut scales = scales.to_vec();
         let is_anisotropic = scales.first().is_some_and(is_anisotropic);
@@ -87,12 +90,13 @@ impl CorrelatedNoise {
             scale.white_equivalent_across <= MAX_ACROSS_RATIO * scale.white_equivalent
         };
         let found = (2..=noisy).rev().find_map(|count| {
-            let starts = count.saturating_sub(MIN_LATE_SCALES) + 1;
+            let late = count.saturating_sub(MIN_LATE_SCALES);
+            let starts = if is_measured { late + 1 } else { 1 };
             let trials = Trials::new(&scales[..count], discs);
             (0..starts)
                 .filter(|first| *first == 0 || scales[*first..count].iter().all(bends_both_ways))
                 .map(|first| trials.fit(first))
-                .filter(|covariance| may_be_smoothest || !covariance.is_smoothest)
+                .filter(|covariance| is_measured || !covariance.is_smoothest)
                 .find(|covariance| covariance.misfit < MAX_MISFIT)
         })?;
         Some(CorrelatedNoise {
@@ -233,12 +237,12 @@ mod tests {
     #[test]
     fn what_is_smoother_than_any_length_may_be_a_shape() {
         let discs = discs();
-        let found = |length, may_be_smoothest| {
+        let found = |length, is_measured| {
             let scales = [0, 1].map(|disc| CurvatureScale {
                 white_equivalent: response(&scale(0, disc), &discs, length),
                 ..scale(0, disc)
             });
-            CorrelatedNoise::from_scales(&scales, &discs, may_be_smoothest).is_some()
+            CorrelatedNoise::from_scales(&scales, &discs, is_measured).is_some()
         };
         assert!(found(1.5, true) && found(1.5, false));
         assert!(found(6.0, true) && !found(6.0, false));

@@ -81,8 +81,7 @@ impl Noise {
             product: 0.0,
             step: step.filter(|_| is_rounding),
         };
-        // What is smoother than any noise that is tried is a shape, unless a camera has measured it.
-        if let Some(found) = correlated_noise(input, input.is_measured)? {
+        if let Some(found) = correlated_noise(input)? {
             let root = found.white_equivalent;
             if found.is_anisotropic || root >= MIN_CORRELATED_RATIO * white {
                 noise.sigma = found.sigma;
@@ -101,10 +100,10 @@ impl Noise {
 }
 
 /// Estimates correlated noise of an input; `None` if a shape hides it.
-fn correlated_noise(input: &Input, may_be_smoothest: bool) -> Result<Option<CorrelatedNoise>> {
+fn correlated_noise(input: &Input) -> Result<Option<CorrelatedNoise>> {
     let discs: Vec<Disc> = DISC_RADII.into_iter().filter_map(Disc::new).collect();
     let scales = curvature_scales(input, &discs)?;
-    let found = CorrelatedNoise::from_scales(&scales, &discs, may_be_smoothest);
+    let found = CorrelatedNoise::from_scales(&scales, &discs, input.is_measured);
     Ok(found)
 }
 
@@ -168,10 +167,14 @@ mod tests {
         Lattice::covering([0.0, 0.0], [1.0, 1.0], 0.01).unwrap()
     }
 
-    /// Uniform in −√3..√3, which is a standard deviation of 1.
     fn white(seed: u64) -> Vec<f64> {
+        white_on(&lattice(), seed)
+    }
+
+    /// Uniform in −√3..√3, which is a standard deviation of 1.
+    fn white_on(lattice: &Lattice, seed: u64) -> Vec<f64> {
         let mut random = oorandom::Rand64::new(u128::from(seed));
-        (0..lattice().len())
+        (0..lattice.len())
             .map(|_| 12f64.sqrt() * (random.rand_float() - 0.5))
             .collect()
     }
@@ -191,6 +194,28 @@ mod tests {
         Noise::from_input(&field.into()).unwrap().unwrap()
     }
 
+    fn noise_of_depths(field: Heightfield) -> Noise {
+        let input = Input::new(field).measured_by_camera();
+        Noise::from_input(&input).unwrap().unwrap()
+    }
+
+    /// Heights whose second differences grow with a power of their distance, as those of terrains do: sums of blurred noise whose sizes are
+    /// those of their blurs.
+    #[test]
+    fn a_terrain_that_is_alike_at_every_scale_has_little_noise() {
+        let lattice = Lattice::covering([0.0, 0.0], [3.0, 3.0], 0.01).unwrap();
+        let mut heights = vec![0.0; lattice.len()];
+        for (octave, blur) in [1.0, 2.0, 4.0, 8.0, 16.0, 32.0].into_iter().enumerate() {
+            let noise = blurred_on(&lattice, octave as u64, [blur; 2]);
+            (heights.iter_mut().zip(noise)).for_each(|(z, n)| *z += blur.powf(1.2) * n);
+        }
+        let field = Heightfield::new(lattice, heights).unwrap();
+        let [noise, of_camera] = [noise_of(field.clone()), noise_of_depths(field)];
+        assert!(noise.sigma < 5.0, "{noise:?}");
+        // The largest discs alone show smooth noise that is ten times as large.
+        assert!(of_camera.sigma > 20.0, "{of_camera:?}");
+    }
+
     #[test]
     fn white_noise_is_measured_beside_bends_and_creases() {
         for sigma in [1e-4, 1e-3, 1e-2] {
@@ -208,9 +233,12 @@ mod tests {
         }
     }
 
+    fn blurred(seed: u64, blur: [f64; 2]) -> Vec<f64> {
+        blurred_on(&lattice(), seed, blur)
+    }
+
     /// Noise of variance 1: white noise after a Gaussian blur along rows and across them, in spacings.
-    fn blurred(seed: u64, [along, across]: [f64; 2]) -> Vec<f64> {
-        let lattice = lattice();
+    fn blurred_on(lattice: &Lattice, seed: u64, [along, across]: [f64; 2]) -> Vec<f64> {
         let size = [lattice.rows() as isize, lattice.cols() as isize];
         let pass = |noise: &[f64], blur: f64, [down, right]: [isize; 2]| -> Vec<f64> {
             let reach = (3.5 * blur).ceil() as isize;
@@ -229,7 +257,7 @@ mod tests {
         };
         let rows_apart = 0.75f64.sqrt();
         let noise = pass(
-            &pass(&white(seed), along, [0, 1]),
+            &pass(&white_on(lattice, seed), along, [0, 1]),
             across / rows_apart,
             [1, 0],
         );
@@ -312,7 +340,7 @@ mod tests {
                 .zip(&rough)
                 .map(|(n, w)| n + share * w)
                 .collect();
-            let noise = noise_of(roof(1e-2, &both));
+            let noise = noise_of_depths(roof(1e-2, &both));
             let product = noise.product / (1e-4 * shared_root([blur; 2]));
             assert!(
                 (0.5..1.8).contains(&product),
@@ -356,7 +384,7 @@ mod tests {
             let both: Vec<f64> = (noise.iter().zip(&rough_noise))
                 .map(|(smooth, rounding)| smooth + rough * rounding)
                 .collect();
-            let found = noise_of(roof(1e-2, &both));
+            let found = noise_of_depths(roof(1e-2, &both));
             let length = found.correlation_length / 0.01;
             assert!(
                 (0.5..2.0).contains(&(found.sigma / 1e-2)),

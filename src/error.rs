@@ -59,11 +59,7 @@ pub enum Error {
     },
 
     /// No vertex has both a height and six neighbours with heights, so that there is no surface to solve for.
-    #[error(
-        "no interior vertex: of {valid} valid vertices on a lattice of {rows} rows by {cols} \
-         columns none has all six neighbours valid and no occlusion; use a finer spacing, a larger \
-         input, a mask with fewer holes or a higher threshold for occlusions"
-    )]
+    #[error("{}", no_interior([*rows, *cols], *valid))]
     NoInterior {
         /// Number of rows of the lattice.
         rows: usize,
@@ -291,6 +287,20 @@ pub const MAX_CELLS: usize = 5 << 22;
 /// Maximum number of pixels of one photo and of a flat image: 25 · 2²⁰, as cameras of 26 megapixels have. Nothing is solved at
 /// them, so that there may be more than [`MAX_CELLS`].
 pub const MAX_PHOTO_PIXELS: usize = 25 << 20;
+
+/// Says why a lattice has no vertex to solve for.
+fn no_interior([rows, cols]: [usize; 2], valid: usize) -> String {
+    let lattice = format!("a lattice of {rows} rows by {cols} columns");
+    match valid {
+        0 => format!(
+            "there is no height: no vertex of {lattice} has one; check which values stand for no data, and the mask"
+        ),
+        _ => format!(
+            "no interior vertex: of {valid} valid vertices on {lattice} none has all six neighbours valid and no occlusion; use a \
+             finer spacing, a larger input, a mask with fewer holes or a higher threshold for occlusions"
+        ),
+    }
+}
 
 /// Checks that a photo has `4 · rows · cols` bytes and at most `MAX_PHOTO_PIXELS` pixels. `what` names it, `found` is the
 /// number of pixels that its bytes are.

@@ -304,7 +304,7 @@ export function lambdaChoiceInWords({ report: { lambda, lambdaChoice }, pixelDis
   switch (reason) {
     case 'prediction': return `Chosen automatically (${count(solves)} trial solves). ${noise}, in the unit of the heights.${levelled}${doubt}`;
     case 'noise': return `Chosen automatically. ${noise}, in the unit of the heights.${levelled}${doubt}`;
-    case 'noNoise': return `The input has no noise.${levelled}${within} A simpler surface (smaller λ) has fewer, larger sheets.`;
+    case 'noNoise': return `The input has no noise${step === undefined ? '' : ` but steps of ${number(step)}`}.${levelled}${within} A simpler surface (smaller λ) has fewer, larger sheets.`;
     case 'tolerance': return `λ follows from the tolerance.${levelled}${within}`;
     default: return `Too few heights to measure their noise: λ = ${shortLambda(lambda)}.`;
   }

@@ -7,6 +7,7 @@ use super::no_data;
 use super::scale::{SUGGESTED_RELIEF_SHARE, are_measured, assumed_levels, assumed_pixel_size};
 use super::square_pixels::{NEGLIGIBLE_SIDE_DIFFERENCE, square_pixels};
 use crate::error::{Result, positive};
+use crate::files::assumption::rounded;
 use crate::files::image_format::Format;
 use crate::files::number_type::NumberType;
 use crate::files::{Assumption, Unit};
@@ -169,7 +170,8 @@ impl StoredImage {
                 true => "taken for",
                 false => "resampled to",
             };
-            let words = format!("pixels of {x} × {y} are {how} squares of {}", square.side);
+            let [x, y, side] = [x, y, square.side].map(|side| rounded(side, 6));
+            let words = format!("pixels of {x} × {y} are {how} squares of {side}");
             assumptions.push(Assumption::new("squarePixels", words, "pixelSize"));
             if let Some(map) = &mut self.georeference {
                 map.size = Some([self.size.0, self.size.1]);

@@ -53,18 +53,17 @@ impl PlaceTable {
     }
 
     /// Finds the place on the flat page, in shares of its width and height, that the photo shows at a pixel: from the nearest
-    /// node in ever smaller steps to the nearest place. None if the pixel is not on the page.
+    /// node of the sheet's grid in ever smaller steps to the nearest place. None if the pixel is not on the page.
     pub fn back_project(&self, pixel: [f64; 2]) -> Option<[f64; 2]> {
-        let squared = |place: [f64; 2]| {
-            let [x, y] = difference(place, pixel);
+        let off = |share: [f64; 2]| {
+            let [x, y] = difference(self.at(share), pixel);
             x * x + y * y
         };
-        let off = |share: [f64; 2]| squared(self.at(share));
         let nearest = |one: &[f64; 2], other: &[f64; 2]| off(*one).total_cmp(&off(*other));
-        let (mut best, _) = node_shares([self.cols, self.rows])
-            .zip(self.places.iter().map(|place| squared(*place)))
-            .min_by(|(_, one), (_, other)| one.total_cmp(other))?;
-        let mut step = self.nodes().map(|nodes| 1.0 / (nodes - 1) as f64);
+        let grid = self.nodes().map(|n| (n - 1) / CELLS_PER_GRID_CELL + 1);
+        let nodes = node_shares(grid).map(|share| (share, off(share)));
+        let (mut best, _) = nodes.min_by(|(_, one), (_, other)| one.total_cmp(other))?;
+        let mut step = grid.map(|nodes| 1.0 / (nodes - 1) as f64);
         while step[0] > f64::EPSILON {
             let around = (0..9).map(|k| {
                 let sides = [k % 3, k / 3].map(|side| f64::from(side) - 1.0);

@@ -13,11 +13,7 @@ const PATTERN_SIDE_PIXELS = 450;
 const MAX_UNREDUCED_RATIO = 1.2;
 
 export class Analyses extends Tasks {
-  /**
-   * Curvatures of the input and of the result, on the same lattice.
-   * @param {Result} result
-   * @returns {Promise<{ before: Analysis, after: Analysis }>}
-   */
+  /** Curvatures of the input and of the result, on the same lattice. @param {Result} result @returns {Promise<{ before: Analysis, after: Analysis }>} */
   async curvatures({ input, surface }) {
     const { spacing } = surface;
     const [before, after] = await Promise.all([
@@ -38,10 +34,7 @@ export class Analyses extends Tasks {
     return this.answer(surface, 'patches', (worker) => worker.patches(surface));
   }
 
-  /**
-   * The number of smooth patches, infinite if the surface is creased all over, and the number of creases between them.
-   * @param {Result} result
-   */
+  /** The number of smooth patches, infinite if the surface is creased all over, and the number of creases between them. @param {Result} result */
   async patchCount(result) {
     const [map, { gaussian }] = await Promise.all([this.patches(result), this.curvature(result.surface)]);
     return { count: await smoothPatchCount(map, { gaussian }), creases: map.creases.length };
@@ -52,11 +45,7 @@ export class Analyses extends Tasks {
     return this.answer(surface, 'rulings', (worker) => worker.rulings(surface));
   }
 
-  /**
-   * A picture of the unrolled sheet, and its figures. The mesh of the sheet is not kept, because it is large.
-   * @param {Result} result
-   * @param {Tell} tell
-   */
+  /** A picture of the unrolled sheet, and its figures. The mesh of the sheet is not kept, because it is large. @param {Result} result @param {Tell} tell */
   unroll({ surface }, tell) {
     return this.answer(surface, 'sheet', async (worker) => {
       const { triangles, places, stretches, report, verdict } = await worker.unroll(surface, { onProgress: ({ fraction }) => tell({ fraction, task: 'unrolling' }) });

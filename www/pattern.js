@@ -35,11 +35,7 @@ export const MM_PER_UNIT = { mm: 1, cm: 10, m: 1000, inch: 25.4 };
 export const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
 /** @typedef {keyof typeof MM_PER_UNIT} LengthUnit */
 
-/**
- * The longer side of a surface in millimetres; NaN if its unit is not known.
- * @param {number} length longer side in its unit
- * @param {string | null} [unit]
- */
+/** The longer side of a surface in millimetres; NaN if its unit is not known. @param {number} length longer side in its unit @param {string | null} [unit] */
 export function trueSide(length, unit) {
   return Number((length * (MM_PER_UNIT[/** @type {LengthUnit} */ (unit ?? '')] ?? NaN)).toPrecision(4));
 }

@@ -151,11 +151,7 @@ export class Session extends Events {
     this.emit('phase', phase);
   }
 
-  /**
-   * Reports an error to all panels; the state of the session does not change.
-   * @param {string} doing what could not be done
-   * @param {unknown} error
-   */
+  /** Reports an error to all panels; the state of the session does not change. @param {string} doing what could not be done @param {unknown} error */
   fail(doing, error) {
     this.emit('failure', { doing, error });
   }
@@ -240,10 +236,7 @@ export class Session extends Events {
     else void this.run();
   }
 
-  /**
-   * Previews a λ while a slider is dragged, in place of the present run; the run follows once the finest preview is ready.
-   * @param {number} lambda
-   */
+  /** Previews a λ while a slider is dragged, in place of the present run; the run follows once the finest preview is ready. @param {number} lambda */
   previewLambda(lambda) {
     const { input } = this;
     this.settings = { ...this.settings, lambda };
@@ -318,11 +311,7 @@ export class Session extends Events {
     }
   }
 
-  /**
-   * The solver of an input. After a change of the input it starts warm from the last result.
-   * @param {Input} input
-   * @returns {Promise<OpenSolver>}
-   */
+  /** The solver of an input. After a change of the input it starts warm from the last result. @param {Input} input @returns {Promise<OpenSolver>} */
   #solverFor(input) {
     const present = this.#openSolver;
     if (present?.input === input) return present.solver;
@@ -414,11 +403,7 @@ function isLarge({ width, height }) {
   return width * height >= MIN_LARGE_INPUT_PIXELS;
 }
 
-/**
- * The lattice spacing of a solve, as an option of the package; an input that is a lattice already has one.
- * @param {Input} input
- * @param {number} coarsening
- */
+/** The lattice spacing of a solve, as an option of the package; an input that is a lattice already has one. @param {Input} input @param {number} coarsening */
 export function spacingOf({ pixelSize, lattice }, coarsening) {
   return lattice ? {} : { spacing: coarsening * pixelSize };
 }

@@ -6,12 +6,7 @@
 /** Maximum distance of a click from its edge, as a share of the drawing's longer side. */
 const MAX_CLICK_SHARE = 0.027;
 
-/**
- * The edge nearest to a place.
- * @param {Drawing} drawing
- * @param {Place} place
- * @returns {{ pair: Pair, isFold: boolean } | null} null without an edge there
- */
+/** The edge nearest to a place. @param {Drawing} drawing @param {Place} place @returns {{ pair: Pair, isFold: boolean } | null} null without an edge there */
 export function edgeAt({ width, height, sheets }, place) {
   const folds = sheets.flatMap((sheet) => sheet.folds).map(({ points, patches }) => (
     { patches, isFold: true, distance: Math.min(...points.slice(1).map((to, i) => distanceFrom(points[i], to, place))) }));

@@ -82,7 +82,7 @@ export async function cutSheets(analyses, result, { side, ...given }, tell) {
 /** The number of sheets, folds, seams and slits in sentences, and what is missing. @param {Drawing} drawing */
 export const sheetsInWords = (drawing) => [countsInWords(drawing), ...faultsInWords(drawing)].join(' ');
 
-/** How many sheets, folds and cuts a drawing has, in one or two sentences. @param {Drawing} drawing */
+/** Says in one or two sentences how many sheets, folds and cuts a drawing has. @param {Drawing} drawing */
 export function countsInWords({ summary: { sheets, seams, folds, slits } }) {
   const cut = seams === 0 ? '' : `, to be joined along ${seams === 1 ? 'one cut' : `${count(seams)} cuts`}`;
   const fold = folds === 0 ? '' : `, with ${folds === 1 ? 'one fold' : `${count(folds)} folds`}`;
@@ -90,7 +90,7 @@ export function countsInWords({ summary: { sheets, seams, folds, slits } }) {
   return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}${fold}${cut}.${slit}`;
 }
 
-/** What is wrong with the sheets of a drawing, and what they lack: sentences. @param {Drawing} drawing */
+/** Says in sentences what is wrong with the sheets of a drawing, and what they lack. @param {Drawing} drawing */
 export function faultsInWords({ summary: { strain, mismatch, missing, untabbed, unlettered } }) {
   const stretch = strain > STRAIN_LIMITS[0] ? `Paper has to give by ${percent(strain)}: use something that stretches, or a smaller λ.` : '';
   const misfit = mismatch > MAX_FITTING_MISMATCH ? `Joints will not fit: the two sides of one differ in length by ${percent(mismatch)}.` : '';

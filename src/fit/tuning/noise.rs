@@ -199,8 +199,8 @@ mod tests {
         Noise::from_input(&input).unwrap().unwrap()
     }
 
-    /// Heights whose second differences grow with a power of their distance, as those of terrains do: sums of blurred noise whose sizes are
-    /// those of their blurs.
+    /// Heights whose second differences grow with a power of their distance, as those of terrains do: sums of blurred noise whose sizes grow
+    /// with a power of their blurs.
     #[test]
     fn a_terrain_that_is_alike_at_every_scale_has_little_noise() {
         let lattice = Lattice::covering([0.0, 0.0], [3.0, 3.0], 0.01).unwrap();

@@ -44,11 +44,12 @@ export async function pageTests({ browser: { chrome } }) {
   for (const { file, length } of files.sort((a, b) => b.length - a.length)) {
     const shortest = lanes.reduce((one, other) => (other.length < one.length ? other : one));
     shortest.length += length;
-    shortest.imports += `import ${JSON.stringify(pathToFileURL(file).href)};\n`;
+    shortest.imports += `  await import(${JSON.stringify(pathToFileURL(file).href)});\n`;
   }
   const entries = await Promise.all(lanes.filter(({ imports }) => imports).map(async ({ imports }, k) => {
     const entry = join(folder, `lane-${k + 1}.test.mjs`);
-    await writeFile(entry, imports);
+    // Node ends a run, and closes the server of all its tests, when the first tests are over before all files are loaded.
+    await writeFile(entry, `import { test } from 'node:test';\nconst loaded = (async () => {\n${imports}})();\ntest('all files are loaded', () => loaded);\n`);
     return entry;
   }));
   await nodeTest('tests/page', entries, { ...process.env, DEVELOPABLE_CHROME: chrome, DEVELOPABLE_PAGE: join(folder, 'bundle') });

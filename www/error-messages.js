@@ -3,9 +3,6 @@
 /** Whether an error is one of the package's with this code. @param {unknown} error @param {string} code */
 export const hasCode = (error, code) => error instanceof Error && 'code' in error && error.code === code;
 
-/** The sentence that names the kinds of files which the page opens. */
-export const OPENED_FILES = 'This page opens photos of pages (JPEG, HEIC, PNG, WebP, GIF, BMP, TIFF, PDF), heights and depths (TIFF, EXR, PFM, NPY, NPZ, PGM, SRTM, grids in text, grey PNG), and meshes and point clouds (OBJ, PLY, STL, 3MF, OFF, GLB, XYZ)';
-
 /**
  * The message of an error, in the page’s own marks.
  * @param {unknown} error or its message

@@ -1,6 +1,6 @@
 /** Sentences of the page: results, errors, hints and labels. */
 import { count, countOf, number, percent, percentAtMost, seconds, shortLambda } from './format.js';
-import { OPENED_FILES, plainMessage } from './error-messages.js';
+import { plainMessage } from './error-messages.js';
 
 /** @typedef {import('../pkg/types.js').Assumption} Assumption */
 /** @import {Report, StopReason, Surface, Verdict} from '../pkg/types.js' */
@@ -46,7 +46,7 @@ export const TASK_WORDS = {
 
 /** Messages about files that were dropped on the wrong part of the page, or that cannot be read. */
 export const FILE_WORDS = {
-  noHeights: (/** @type {string} */ name) => `“${name}” has no heights that are read. If it is a camera, open it together with its depths. ${OPENED_FILES}.`,
+  noHeights: (/** @type {string} */ name) => `“${name}” has no heights. Open a photo, a model or a scan. If it is a camera, open it together with its depths.`,
   takenForPages: (/** @type {number} */ n) => (n === 1 ? 'Taken for a photo of a page.' : 'Taken for photos of pages.'),
   heightsInstead: 'Heights instead?',
   takenForHeights: 'Taken for heights.',

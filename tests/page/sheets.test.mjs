@@ -4,6 +4,7 @@ import { test } from 'node:test';
 import { dispose, pattern } from '../../pkg/index.js';
 import { sheetsInWords } from '../../www/pattern.js';
 import { meshFitSummary } from '../../www/views/mesh-fit.js';
+import { rulings } from '../../www/views/rulings.js';
 import { edgeAt, parsePairs, togglePair } from '../../www/sheet-edges.js';
 import { cuboid } from './support/box.mjs';
 import { obj } from './support/files.mjs';
@@ -55,6 +56,10 @@ test('what of a surface is on no sheet is said, and which cuts have no tab or le
   assert.equal(said({ unlettered: 2 }), '2 sheets, to be joined along 3 cuts. 2 cuts have no room for a letter.');
   assert.equal(said({ mismatch: 0.031 }).replaceAll('\u00a0', ' '), '2 sheets, to be joined along 3 cuts. Joints will not fit: the two sides of one differ in length by 3.1 %.');
   assert.match(said({ missing: { vertices: 4, area: 1200, steps: 1, stepArea: 300 }, untabbed: 1 }), /15 cm² of the surface.* are on no sheet\. One cut has no room for a tab\.$/);
+});
+
+test('where there are no rulings, it is said why', () => {
+  assert.deepEqual(rulings([], 'mm'), { said: 'No rulings are drawn: in a flat face every straight line is one.' });
 });
 
 test('a shape that a solve has lost is called lost', () => {

@@ -10,6 +10,7 @@ const RULING_COLOUR = [232, 89, 12];
 
 /** @param {readonly Ruling[]} lines @param {string | null} [unit] @returns {ViewContent} */
 export function rulings(lines, unit) {
+  if (lines.length === 0) return { said: 'No rulings are drawn: in a flat face every straight line is one.' };
   const deviations = lines.map(({ deviation }) => deviation).sort((a, b) => a - b);
   return {
     layers: [undefined, { lines: lines.map(({ points }) => ({ points, colour: RULING_COLOUR, width: 1.25 })) }],
@@ -17,8 +18,8 @@ export function rulings(lines, unit) {
       key(toCss(RULING_COLOUR), 'Rulings'),
       figures([
         ['Lines', count(lines.length)],
-        ['Longest', lines.length > 0 ? `${number(lines.reduce((most, { length }) => Math.max(most, length), 0))} ${unit ?? 'units'}` : '–'],
-        ['Median deviation from straight', deviations.length > 0 ? `${percent(deviations[deviations.length >> 1])} of the length` : '–'],
+        ['Longest', `${number(lines.reduce((most, { length }) => Math.max(most, length), 0))} ${unit ?? 'units'}`],
+        ['Median deviation from straight', `${percent(deviations[deviations.length >> 1])} of the length`],
       ]),
     ],
   };

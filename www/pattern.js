@@ -82,12 +82,12 @@ export async function cutSheets(analyses, result, { side, ...given }, tell) {
 /** The number of sheets, folds, seams and slits in sentences, and what is missing. @param {Drawing} drawing */
 export const sheetsInWords = (drawing) => [countsInWords(drawing), ...faultsInWords(drawing)].join(' ');
 
-/** Says in one or two sentences how many sheets, folds and cuts a drawing has. @param {Drawing} drawing */
-export function countsInWords({ summary: { sheets, seams, folds, slits } }) {
+/** Says in one or two sentences how many sheets, folds and cuts a drawing has. @param {Drawing} drawing @param {boolean} [fitsPages] whether its sheets were cut so that each fits a page */
+export function countsInWords({ summary: { sheets, seams, folds, slits } }, fitsPages = false) {
   const cut = seams === 0 ? '' : `, to be joined along ${seams === 1 ? 'one cut' : `${count(seams)} cuts`}`;
   const fold = folds === 0 ? '' : `, with ${folds === 1 ? 'one fold' : `${count(folds)} folds`}`;
   const slit = slits === 0 ? '' : ` ${slits === 1 ? 'One cut' : `${count(slits)} cuts`}, then ${sheets === 1 ? 'it lies' : 'they lie'} flat.`;
-  return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets`}${fold}${cut}.${slit}`;
+  return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets${fitsPages ? ' that each fit a page' : ''}`}${fold}${cut}.${slit}`;
 }
 
 /** Says in sentences what is wrong with the sheets of a drawing, and what they lack. @param {Drawing} drawing */

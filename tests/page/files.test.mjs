@@ -122,6 +122,7 @@ doorTest('a file, a mesh’s other side and a file to be saved can be done witho
   const hold = (on) => page.evaluate((value) => void (/** @type {any} */ (window).held.on = value), on);
   const ended = () => page.evaluate(() => /** @type {any} */ (window).held.ended);
   const before = await page.locator('#input-caption').innerText();
+  const place = await page.locator('#picture').boundingBox();
   const ways = /** @type {const} */ ([
     ['opening', /Reading the file/, () => drop(page, 'slope.npy', npy(WIDTH, plane))],
     ['opening', /Looking at it from there/, () => choose(page.getByRole('radio', { name: '+x', exact: true }))],
@@ -134,6 +135,7 @@ doorTest('a file, a mesh’s other side and a file to be saved can be done witho
     if (i === 0) {
       const opening = page.getByRole('group', { name: 'Opening a file' });
       assert.deepEqual([await opening.getByRole('button', { name: 'Cancel' }).count(), await opening.locator('progress:indeterminate').count()], [1, 1], 'nothing tells how long it takes');
+      assert.deepEqual(await page.locator('#picture').boundingBox(), place, 'its bar moves nothing');
     }
     const gone = await page.locator(`#${panel}-cancel`).evaluate((/** @type {HTMLButtonElement} */ button) => {
       button.click();

@@ -73,7 +73,8 @@ pageTest('behind each door is an example, one click away, and Back leads to the 
   assert.equal(await page.locator('.bar').count(), 0);
   assert.equal(await page.locator('.primary:visible').count(), 1, 'one main button');
   await page.locator('#end-sheets').click();
-  await page.locator('#save-title', { hasText: /80 mm/ }).waitFor();
+  await page.locator('#save-title', { hasText: /64 mm, 1 page/ }).waitFor();
+  assert.match(await page.locator('.sheets .said').innerText(), /^One sheet, /, 'as its door promises');
   await page.keyboard.press('Escape');
   await page.getByRole('link', { name: 'developable' }).click();
 

@@ -1,7 +1,7 @@
-/** The model behind the door "Cut a model": a house of 60 × 80 mm. */
+/** The model behind the door "Cut a model": a house of 48 × 64 mm, whose sheet fits a page of A4 or Letter. */
 
 /** Half the width, half the depth, the height of the walls and that of the ridge, in millimetres. */
-const [HALF_WIDTH, HALF_DEPTH, WALL_HEIGHT, RIDGE_HEIGHT] = [30, 40, 45, 80];
+const [HALF_WIDTH, HALF_DEPTH, WALL_HEIGHT, RIDGE_HEIGHT] = [24, 32, 36, 64];
 
 /** Whether a file is the example, which was written at no time. @param {File} file */
 export const isExampleModel = ({ name, lastModified }) => name === 'house.obj' && lastModified === 0;

@@ -49,6 +49,8 @@ export function addressSyncPanel(session, page) {
   let isStoring = false;
   /** Id of the open photos of pages in the storage of recent files. @type {number | undefined} */
   let photoId;
+  /** The same, once they are stored. @type {Promise<number | undefined>} */
+  let photosStored = Promise.resolve(undefined);
   /** The open photos of pages, in their order. @type {readonly File[]} */
   let photos = [];
   /** Kind and name of the last input. */
@@ -119,10 +121,10 @@ export function addressSyncPanel(session, page) {
   const openStoredPhotos = async (id) => {
     const files = await storedFiles(id);
     if (!files) return false;
-    [photoId, photos] = [id, files];
+    [photoId, photos, photosStored] = [id, files, Promise.resolve(id)];
     const { states, shown } = await storedOutlines(id);
     // What was cancelled is not open.
-    if (!(await page.openPhotos(files, states, shown))) photoId = undefined;
+    if (!(await page.openPhotos(files, states, shown))) [photoId, photosStored] = [undefined, Promise.resolve(undefined)];
     return true;
   };
 
@@ -247,9 +249,11 @@ export function addressSyncPanel(session, page) {
       const before = photos;
       const mine = (photos = opened.map(({ file }) => file));
       // Photos that are added, moved or removed change the entry of those that were open.
-      const id = photos.some((file) => before.includes(file)) ? photoId : undefined;
+      const isKept = photos.some((file) => before.includes(file));
       const isSame = mine.length === before.length && mine.every((file, i) => file === before[i]);
-      const stored = isSame ? photoId : mine.length > 0 ? await storeFiles(mine, { arePhotos: true, id }) : undefined;
+      // One after the other, so that the last one stays.
+      if (!isSame) photosStored = photosStored.then((last) => (mine.length > 0 ? storeFiles(mine, { arePhotos: true, id: isKept ? last : undefined }) : undefined));
+      const stored = await photosStored;
       if (photos !== mine) return;
       [photoId, isUnstored] = [stored, mine.length > 0 && stored === undefined];
       this.rememberOutlines(opened.map(({ state }) => state), shown);

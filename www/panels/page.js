@@ -99,11 +99,11 @@ export function pagePanel(opener, onOpened, onChanged) {
   /** @type {History<import('../page/book.js').BookState>} */
   const history = new History(element('page-side', HTMLElement), ({ photos, index, shown }) => {
     book.photos = photos.map((photo) => ({ ...photo }));
+    if (photos.length > 0) onOpened(book.photos, index);
     if (session?.photo?.file !== photos[index]?.file) return void openAt(index);
     book.index = index;
     list.renew();
     session?.restore(shown);
-    if (photos.length > 0) onOpened(book.photos, index);
   }, isSameBook);
   const note = () => {
     if (!session) return;
@@ -113,6 +113,8 @@ export function pagePanel(opener, onOpened, onChanged) {
   const list = pageBookPanel(book, (at) => void openAt(at), async () => {
     note();
     const { file } = book.remove(book.index);
+    // Before the next photo is read: it is gone after a reload, too.
+    onOpened(book.photos, book.index);
     await openAt(book.index);
     showNotice(BOOK_WORDS.removed(file.name), 'note', { label: BOOK_WORDS.undo, act: () => history.step() });
   }, () => {

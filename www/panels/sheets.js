@@ -227,7 +227,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
       preview.replaceChildren(image);
       // What is enlarged is seen from its middle on.
       preview.scrollTo((preview.scrollWidth - preview.clientWidth) / 2, (preview.scrollHeight - preview.clientHeight) / 2);
-      status.textContent = countsInWords(finished);
+      status.textContent = countsInWords(finished, isExact && cutOptions().stock !== undefined);
       about.replaceChildren(figures(sheetFigures(finished)), make('ol', 'small', ...buildSteps(finished).map((step) => make('li', '', step))));
     } catch (error) {
       if (requested !== drawing) return;

@@ -39,7 +39,7 @@ export function sheetOfHeights(unit, { picture, report: { distortion, crossings,
  */
 export async function sheetOfMesh(unit, { triangles, places, stretches, report: { sheets, strain, seamGap, missing } }) {
   const picture = await callWorker('sheetStrainImage', triangles, places, stretches);
-  return sheet(picture, unit, sheets === 1 ? 'One sheet.' : `${count(sheets)} sheets.`, [
+  return sheet(picture, unit, sheets === 1 ? 'One sheet, if the paper is large enough.' : `${count(sheets)} sheets.`, [
     ['Largest strain', percent(strain)],
     ['Seam gap of folds', `${numberAgainst(seamGap, picture.extent.width)} ${unit}`],
     ...(missing.area > 0 ? [/** @type {const} */ (['Left out', `${number(missing.area)} ${areaUnit(unit)}`])] : []),

@@ -1,6 +1,7 @@
 /** Sentences of the page: results, errors, hints and labels. */
 import { count, countOf, number, percent, percentAtMost, seconds, shortLambda } from './format.js';
 import { plainMessage } from './error-messages.js';
+import { sidesOf } from './surface/triangles.js';
 
 /** @typedef {import('../pkg/types.js').Assumption} Assumption */
 /** @import {Report, StopReason, Surface, Verdict} from '../pkg/types.js' */
@@ -125,8 +126,8 @@ export const ADDRESS_WORDS = {
 
 /** Figures below each of the five pictures with different λ. */
 export const STRIP_WORDS = {
-  /** @param {number} pieces infinite if the surface is creased all over @param {number} distance distance from the input, as a share of the width */
-  figures: (pieces, distance) => `${Number.isFinite(pieces) ? countOf(pieces, 'piece') : 'many small creases'} · ${percent(distance)} from the input`,
+  /** @param {number} pieces infinite if they cannot be told apart @param {number} distance distance from the input, as a share of the width */
+  figures: (pieces, distance) => `${Number.isFinite(pieces) ? `${countOf(pieces, 'piece')} · ` : ''}${percent(distance)} from the input`,
 };
 
 /** Messages about the fit of a whole mesh. */
@@ -271,7 +272,7 @@ export function piecesInWords(pieces, creases, oneSide = false) {
     ? `${smooth}${pieces === 1 ? none : ', apart from each other'}`
     : `${smooth} ${pieces === 1 ? 'with' : 'meet in'} ${creases === 1 ? 'one crease' : `${count(creases)} creases`}`;
   if (oneSide && !Number.isFinite(pieces)) return 'Seen from one side only. Solve the whole mesh?';
-  const words = Number.isFinite(pieces) ? meet : 'Its pieces are too small to count';
+  const words = Number.isFinite(pieces) ? meet : 'Its pieces run into each other, and are not counted';
   return oneSide ? `From this side: ${words[0].toLowerCase()}${words.slice(1)}.` : `${words}.`;
 }
 
@@ -288,33 +289,36 @@ export function lambdaHint(lambda) {
 /** Hint for automatic λ, before it is chosen. */
 export const AUTO_LAMBDA_HINT = 'The page chooses λ from the noise of the input. This takes a few more solves.';
 
-/** How λ was chosen automatically; empty if it was given. @param {Pick<Surface, 'report' | 'pixelDistance'>} surface */
-export function lambdaChoiceInWords({ report: { lambda, lambdaChoice }, pixelDistance }) {
+/** A length in its unit, or as a share of a larger one if that is not known. @param {number} length @param {string | null | undefined} unit @param {number} whole @param {string} name of the larger one */
+const lengthInWords = (length, unit, whole, name) => `${number(length)}${unit ? ` ${unit}` : whole > 0 ? `, ${percent(length / whole)} of ${name}` : ''}`;
+
+/** How λ was chosen automatically; empty if it was given. @param {Pick<Surface, 'report' | 'pixelDistance' | 'heights'>} surface @param {string} [unit] of lengths */
+export function lambdaChoiceInWords({ report: { lambda, lambdaChoice }, pixelDistance, heights }, unit) {
   if (!lambdaChoice) return '';
   const { reason, sigma, step, solves, correlationLength, ambiguous, residualExceedsNoise, residualRatio, tolerance, offsetRows, offsetColumns } = lambdaChoice;
   const lines = [offsetRows && 'rows', offsetColumns && 'columns'].filter(Boolean).join(' and ');
   const levelled = lines && ` Offsets of ${lines} were taken out.`;
-  const length = correlationLength > 0 ? `, alike over distances of ${number(correlationLength)}` : '';
-  const noise = step === undefined ? `Noise: ${number(sigma ?? 0)}${length}` : `Steps: ${number(step)}`;
-  const within = tolerance === undefined ? '' : ` The surface keeps to the heights, but for ${number(pixelDistance ?? tolerance)} (root mean square).`;
+  const length = correlationLength > 0 ? `, alike over distances of ${number(correlationLength)}${unit ? ` ${unit}` : ''}` : '';
+  const noise = `${step === undefined ? 'Noise' : 'Steps'}: ${lengthInWords(step ?? sigma ?? 0, unit, sidesOf(heights, 1)[0], 'the range of the heights')}${step === undefined ? length : ''}`;
+  const within = tolerance === undefined ? '' : ` The surface keeps to the heights, but for ${number(pixelDistance ?? tolerance)}${unit ? ` ${unit}` : ''} (root mean square).`;
   const unsure = ambiguous ? ` Shape and noise cannot be told apart.${within} Compare five values.` : '';
   const doubt = residualExceedsNoise
     ? ` The surface is at least ${number(residualRatio ?? 0)} times as far from the heights as their noise explains: a larger λ keeps more of the shape.`
     : unsure;
   switch (reason) {
-    case 'prediction': return `Chosen automatically (${count(solves)} trial solves). ${noise}, in the unit of the heights.${levelled}${doubt}`;
-    case 'noise': return `Chosen automatically. ${noise}, in the unit of the heights.${levelled}${doubt}`;
+    case 'prediction': return `Chosen automatically (${count(solves)} trial solves). ${noise}.${levelled}${doubt}`;
+    case 'noise': return `Chosen automatically. ${noise}.${levelled}${doubt}`;
     case 'noNoise': return `The input has no noise${step === undefined ? '' : ` but steps of ${number(step)}`}.${levelled}${within} A simpler surface (smaller λ) has fewer, larger sheets.`;
     case 'tolerance': return `λ follows from the tolerance.${levelled}${within}`;
     default: return `Too few heights to measure their noise: λ = ${shortLambda(lambda)}.`;
   }
 }
 
-/** How λ of a whole mesh was chosen automatically. @param {MeshSurface['report']} report */
-export function meshLambdaChoiceInWords({ lambda, sigma, stopReason }) {
+/** How λ of a whole mesh was chosen automatically. @param {Pick<MeshSurface, 'report' | 'unit' | 'positions'>} surface */
+export function meshLambdaChoiceInWords({ report: { lambda, sigma, stopReason }, unit, positions }) {
   if (stopReason === 'noNoise') return 'There is no noise to choose λ by. The slider smooths it all the same.';
   if (sigma === undefined) return `Too few vertices to measure their noise: λ = ${shortLambda(lambda)}.`;
-  return `Chosen automatically. Noise: ${number(sigma)} along the normals, in the unit of the mesh.`;
+  return `Chosen automatically. Noise along the normals: ${lengthInWords(sigma, unit, Math.max(...sidesOf(positions)), 'the longest side')}.`;
 }
 
 /** The message about an error. @param {string} doing what could not be done @param {unknown} error */

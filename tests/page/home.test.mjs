@@ -158,7 +158,10 @@ pageTest('while something is opened, the page says so and not that it shows noth
   await page.getByRole('link', { name: 'developable' }).click();
   await page.locator('[data-example="scan"]').click();
   await page.locator('#input-caption', { hasText: 'roof' }).waitFor();
-  assert.equal((await said.jsonValue()).some((words) => /Nothing/.test(words)), false);
+  await settled(page);
+  const all = await said.jsonValue();
+  assert.equal(all.some((words) => /Nothing/.test(words)), false);
+  assert.match(all.slice(-2).join(' '), /^Solving… \d+ smooth pieces meet in \d+ creases\.$/, 'one sentence, once it is known');
 }, { start: '' });
 
 pageTest('letters have the sizes of the scale in www/design.md, and no others', async (page) => {

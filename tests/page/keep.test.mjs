@@ -109,6 +109,8 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   await settled(page);
   assert.equal(parsed(await reported(page, 'λ')), 1e5);
   await page.locator('#strip[aria-busy="false"]').waitFor();
+  // Nothing is said of pieces that cannot be told apart.
+  for (const words of await page.locator('.strip-one .muted').allInnerTexts()) assert.match(words, /^[\d.]+\s% from the input$/);
   await runBy(page, () => page.getByRole('button', { name: 'λ = 1e7' }).click());
   assert.equal(parsed(await reported(page, 'λ')), 1e7);
   await page.getByRole('button', { name: /^Gallery/ }).click();

@@ -71,7 +71,7 @@ sharedTest('λ by the noise, and what came of it, beside the slider', async (pag
   assert.equal(await page.locator('#energy').inputValue(), 'huber');
   const lambda = parsed(await reported(page, 'λ'));
   const hint = await page.locator('#lambda-hint').innerText();
-  assert.match(hint, /^Chosen automatically \(\d+ trial solves\)\. Noise: /);
+  assert.match(hint, /^Chosen automatically \(\d+ trial solves\)\. Noise: [\d.]+, [\d.]+\s% of the range of the heights\./);
   // Two digits of it, where the slider goes on from.
   const field = Number(await page.locator('#lambda-value').inputValue());
   assert.ok(Math.abs(field / lambda - 1) < 0.06, `${field} and ${lambda}`);

@@ -5,6 +5,7 @@ import { test } from 'node:test';
 import { unzipSync } from 'fflate';
 import { pageCautions, pageErrors } from '../../www/page/messages.js';
 import { flattenWholePhoto } from '../../www/page/flatten.js';
+import { pictureFiles } from '../../www/page/paper.js';
 import { init, load, writeBook } from '../../pkg/direct.js';
 import { readPdf, readPdfPicture } from '../js/support/drawings.mjs';
 import { parsed } from './support/numbers.mjs';
@@ -305,6 +306,25 @@ doorTest('a photo in HEIC is read by what is loaded only then, as it was held', 
   assert.ok(misplaced(await flatPng(page)) < 0.005);
 });
 
+doorTest('the photo gives way to its flat page at first, by a divider that stays at the rim', async (page) => {
+  const divider = page.locator('#flat-divider');
+  const places = await divider.evaluateHandle((one) => {
+    /** @type {number[]} */
+    const places = [];
+    new MutationObserver(() => one.checkVisibility() && places.push(Number(one.getAttribute('aria-valuenow')))).observe(one, { attributes: true });
+    return places;
+  });
+  await page.getByRole('button', { name: 'Try an example' }).first().click();
+  await page.locator('#flat-divider[aria-valuenow="0"]:visible').waitFor();
+  const all = await places.jsonValue();
+  assert.ok(all.length > 2 && all[0] > 60 && all.every((place, i) => i === 0 || place <= all[i - 1]) && all.at(-1) === 0, all.join());
+  // Where it is put later it stays.
+  await divider.press('End');
+  await page.getByRole('button', { name: 'Rotate page' }).click();
+  await flattened(page);
+  assert.equal(await divider.getAttribute('aria-valuenow'), '100');
+}, { moving: true });
+
 doorTest('text is recognised in the PDF when it is asked for, by what is loaded only then', async (page) => {
   /** @type {string[]} */
   const asked = [];
@@ -373,6 +393,14 @@ test('a file is made by the page that is shown, and no page is searched for it a
   await flattenWholePhoto(worker, /** @type {any} */ ({ photo, options: { light: 'keep', ink: false, focalLength: 3000 } }), shown);
   const { width, height, data } = photo;
   assert.deepEqual(asked, [[{ width, height, data }, shown, { light: 'keep', ink: false }]]);
+});
+
+test('a wide page of any proportions lies on wide paper, and an upright one on upright paper', async () => {
+  const worker = /** @type {any} */ ({ writePhoto: async () => new Uint8Array(1) });
+  const flat = /** @type {any} */ ({ width: 6, height: 4, resolution: 2, data: new Uint8ClampedArray(96) });
+  for (const [pages, quarters, size] of /** @type {const} */ ([[1, 0, [297, 210]], [1, 1, [210, 297]], [2, 0, [210, 297]]])) {
+    assert.deepEqual((await pictureFiles(worker, flat, pages, quarters, [210, 297], {})).map((one) => one.size), Array(pages).fill(size));
+  }
 });
 
 sharedDoorTest('a file of all pixels has the proportions of the flat page that is shown', async (page) => {

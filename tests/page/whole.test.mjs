@@ -337,7 +337,9 @@ sharedDoorTest('a whole mesh is solved with the λ that is chosen, which stands 
   await solvedBy(() => choose(page.getByRole('radio', { name: 'Whole mesh', exact: true })), /whole=1$/);
   const hint = await page.locator('#lambda-hint').innerText();
   // Evenly distributed, up to 0.02 to either side.
-  const sigma = parsed(/Noise: ([\d.]+)/.exec(hint)?.[1] ?? '');
+  const longest = Math.max(...[0, 1, 2].map((k) => Math.max(...tube.points.map((point) => point[k])) - Math.min(...tube.points.map((point) => point[k]))));
+  const [sigma, share] = (/Noise along the normals: ([\d.]+), ([\d.]+)\s%/.exec(hint) ?? []).slice(1).map(parsed);
+  assert.ok(Math.abs((share / 100) * longest / sigma - 1) < 0.02, hint);
   assert.ok(Math.abs(sigma / (0.02 / Math.sqrt(3)) - 1) < 0.2, hint);
   const auto = parsed(await told(page, 'λ'));
   assert.ok(Math.abs(Number(await field.inputValue()) / auto - 1) < 0.05);

@@ -31,7 +31,7 @@ export function similarPaper(width, height) {
  * @param {FlatPage} flat
  * @param {number} pages number of pages side by side
  * @param {number} quarters clockwise quarter turns of each page
- * @param {readonly [number, number] | null} paper size in millimetres; null for true size
+ * @param {readonly [number, number] | null} paper size in millimetres, upright or not as each picture; null for true size
  * @param {{ ink?: boolean, text?: boolean }} options whether the flat photo is black and white; whether its text is recognised
  */
 export async function pictureFiles(worker, flat, pages, quarters, paper, { ink = false, text = false }) {
@@ -41,8 +41,8 @@ export async function pictureFiles(worker, flat, pages, quarters, paper, { ink =
     const { width, height, data } = turnPicture(columnsOf(flat, from, to), quarters);
     const words = text ? await linesIn(new ImageData(data, width, height)) : [];
     const picture = await worker.writePhoto({ width, height, data }, { format: ink ? 'png' : 'jpeg' });
-    const size = /** @type {[number, number]} */ (paper ? [...paper] : [width / flat.resolution, height / flat.resolution]);
-    pictures.push({ picture, size, words, ending: ink ? 'png' : 'jpg' });
+    const size = paper ? [...paper].sort((a, b) => (width < height ? a - b : b - a)) : [width / flat.resolution, height / flat.resolution];
+    pictures.push({ picture, size: /** @type {[number, number]} */ (size), words, ending: ink ? 'png' : 'jpg' });
   }
   return pictures;
 }

@@ -2,6 +2,9 @@
 import { element } from '../dom.js';
 import { KEY_MOVE_SHARE } from '../surface/zoom.js';
 
+/** Time of its movement over the picture, in milliseconds. */
+const GLIDE_MS = 1600;
+
 /**
  * @param {string} id
  * @param {[string, string]} names of what is left and right of the divider
@@ -35,6 +38,21 @@ export function dividerOver(id, [left, right], onMove, share = 0.5) {
   });
   move(share);
   return {
+    /** Moves over the picture to its left rim until somebody moves it; not where less motion is preferred. */
+    glide: () => {
+      if (matchMedia('(prefers-reduced-motion: reduce)').matches) return;
+      const start = performance.now();
+      let last = share;
+      const step = () => {
+        // Somebody has moved it.
+        if (share !== last) return;
+        const left = Math.max(0, 1 - (performance.now() - start) / GLIDE_MS);
+        // Slowly at first, and at the end.
+        move(last = (1 - Math.cos(Math.PI * left)) / 2);
+        if (left > 0) requestAnimationFrame(step);
+      };
+      step();
+    },
     get share() {
       return share;
     },

@@ -30,11 +30,14 @@ export function headlinePanel(session, analyses, stage, heights) {
     for (let attempt = 0; attempt < MAX_PIECE_COUNT_ATTEMPTS && session.result === result; attempt++) {
       const pieces = await analyses.patchCount(result).catch(() => null);
       if (session.result !== result) return;
-      if (!pieces) continue;
-      say(piecesInWords(pieces.count, pieces.creases, result.input.sampling !== undefined), detailsOf(session));
-      break;
+      if (pieces) return sayResult(piecesInWords(pieces.count, pieces.creases, result.input.sampling !== undefined));
     }
-    if (session.result === result) main.setAttribute('aria-busy', 'false');
+    if (session.result === result) sayResult(HEADLINE_WORDS.solved);
+  };
+  /** @param {string} sentence */
+  const sayResult = (sentence) => {
+    say(sentence, detailsOf(session));
+    main.setAttribute('aria-busy', 'false');
   };
 
   session.on('input', (input) => {
@@ -51,7 +54,7 @@ export function headlinePanel(session, analyses, stage, heights) {
     chip.hidden = report.hidden = false;
     chip.textContent = certificateInWords(result.surface.report);
     chip.dataset.mark = stopReason === 'cancelled' || (gap === undefined && stopReason !== 'rounding') ? 'doubt' : 'sure';
-    say(HEADLINE_WORDS.solved, detailsOf(session));
+    // One sentence, once it is known; until then the one from before.
     main.setAttribute('aria-busy', 'true');
     clearTimeout(pieceCountTimer);
     // While λ is dragged, results follow each other quickly.

@@ -47,6 +47,8 @@ export function pageResultPanel(api, session, book, onWritten) {
   let wantsText = false;
   /** The reduced photo, once it is needed. @type {Picture | null} */
   let before = null;
+  /** Whether the divider has shown that there is a photo behind it. */
+  let wasCompared = false;
 
   const flattening = waitingPanel(element('flattening', HTMLElement), undefined, PROGRESS_DELAY_MS);
   session.on('progress', (fraction) => {
@@ -114,6 +116,8 @@ export function pageResultPanel(api, session, book, onWritten) {
       if (before && divider.share > 0) paintBefore(context, before, divider.share, ratio);
     } });
     divider.show(before !== null);
+    if (before && !wasCompared) divider.glide();
+    wasCompared ||= before !== null;
     empty.hidden = true;
     // The result of a drag that is over already must not be saved in place of the final one.
     if (moving && isMoving) save.disabled = false;
@@ -140,10 +144,10 @@ export function pageResultPanel(api, session, book, onWritten) {
     const { outline: { pages }, quarters } = session;
     const measured = found?.unit === 'mm';
     const [wide, high] = found ? [found.size[0] / pages, found.size[1]] : [0, 0];
-    const similar = quarters % 2 === 0 ? similarPaper(wide, high) : similarPaper(high, wide);
+    const similar = similarPaper(wide, high);
     const paper = make('select', '', ...(measured ? [new Option(SAVE_WORDS.trueSize(sizeOf(/** @type {DewarpedPage} */ (found), quarters)), '')] : []),
-      ...Object.entries(SAVE_WORDS.papers).map(([name, words]) => new Option(words, name)));
-    paper.value = measured ? '' : similar ?? 'a4';
+      ...Object.entries(SAVE_WORDS.papers).filter(([name]) => !name.endsWith('-wide')).map(([name, words]) => new Option(words, name)));
+    paper.value = measured ? '' : similar?.replace('-wide', '') ?? 'a4';
     const text = Object.assign(make('input', ''), { type: 'checkbox', checked: wantsText });
     const several = book.photos.length > 1;
     const title = several ? stemOf(book.photos[0].file) : wish.photo.name;

@@ -116,7 +116,7 @@ function groupsOf(result) {
     ],
     Work: [
       ['λ', number(report.lambda), 'The detail that is kept: a larger λ stays closer to the input.'],
-      report.lambdaChoice?.sigma !== undefined && ['Noise, σ', number(report.lambdaChoice.sigma), lambdaChoiceInWords(result.surface)],
+      report.lambdaChoice?.sigma !== undefined && ['Noise, σ', number(report.lambdaChoice.sigma), lambdaChoiceInWords(result.surface, result.input.unit)],
       report.huber && passes > 0 && ['On creases', count(report.huber.creases), `So many vertices lie on creases, which were sharpened ${passes === 1 ? 'once' : `${count(passes)} times`}. The proof is about the last time.`],
       ['Iterations', count(report.iterations), `Steps of the solver (ADMM), ${count(report.levels.at(-1)?.iterations ?? 0)} of them on the finest lattice.`],
       ['Time', seconds(report.seconds.total), ''],

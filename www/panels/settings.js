@@ -61,8 +61,8 @@ export function settingsPanel(session, meshFit) {
   const updateHint = () => {
     const { result, settings: { lambda } } = session;
     if (lambda !== 'auto') hint.textContent = lambdaHint(lambda);
-    else if (meshFit.mesh) hint.textContent = (meshFit.surface && meshLambdaChoiceInWords(meshFit.surface.report)) || AUTO_LAMBDA_HINT;
-    else hint.textContent = (result?.settings.lambda === 'auto' && lambdaChoiceInWords(result.surface)) || AUTO_LAMBDA_HINT;
+    else if (meshFit.mesh) hint.textContent = (meshFit.surface && meshLambdaChoiceInWords(meshFit.surface)) || AUTO_LAMBDA_HINT;
+    else hint.textContent = (result?.settings.lambda === 'auto' && lambdaChoiceInWords(result.surface, result.input.unit)) || AUTO_LAMBDA_HINT;
   };
   /** Shows λ in the controls. @param {number} lambda */
   const showLambda = (lambda) => {

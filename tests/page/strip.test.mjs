@@ -12,7 +12,7 @@ sharedTest('five λ side by side are smoother the smaller λ is, and a click tak
   const texts = await choices.allInnerTexts();
   assert.deepEqual(texts.map((text) => text.split('\n')[0].trim()), ['1e4', '1e5', '1e6', '1e7', '1e8'].map((lambda) => `λ = ${lambda}`));
   // The larger λ, the closer to the input.
-  const off = texts.map((text) => parsed(/· ([^·]*) from the input/.exec(text)?.[1] ?? ''));
+  const off = texts.map((text) => parsed(/([\d.]+)\s% from the input/.exec(text)?.[1] ?? ''));
   assert.ok(off.every((value, i) => value > 0 && (i === 0 || value < off[i - 1])), texts.join('; '));
 
   // What is followed more closely has more of the noise.

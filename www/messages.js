@@ -174,6 +174,13 @@ export const SHEET_WORDS = {
   /** @param {{ seams: number, folds: number }} summary */
   legend: ({ seams, folds }) => `Numbers are those of the smooth pieces.${seams > 0 ? ' Sides with the same letter belong together.' : ''}${folds > 0 ? ' M is a fold to a ridge, V to a valley.' : ''}`,
   edges: 'Click a fold to cut it, or the letter of a cut to fold it.',
+  /** @param {number[]} pair @param {boolean} isFold */
+  edge: ([a, b], isFold) => `${isFold ? 'Fold' : 'Cut'} between pieces ${a} and ${b}: click to ${isFold ? 'cut' : 'fold'} it.`,
+  /** @param {number[]} pair @param {boolean} wasFold */
+  toggled: ([a, b], wasFold) => `Pieces ${a} and ${b} are ${wasFold ? 'cut apart' : 'joined by a fold'} now.`,
+  unfoldable: (/** @type {number[]} */ [a, b]) => `Pieces ${a} and ${b} stay cut apart: with this fold pieces would lie on each other, or fit no page.`,
+  unfoldableAll: 'With all these folds pieces would lie on each other, or fit no page. Leave out some.',
+  undo: 'Undo',
   byNumber: 'Folds and cuts by number',
   cut: 'Cut the sheets',
   pdf: 'to print at 100 %, in true size',

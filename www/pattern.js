@@ -21,8 +21,8 @@ const MAX_FITTING_MISMATCH = 0.02;
 /** Longer side of a finished surface without a unit, or that cannot have its true size, in millimetres. */
 const DEFAULT_FINISHED_SIDE_MM = 180;
 
-/** Width of the lines of a drawing that is shown, and wanted size of its texts, in CSS pixels; and how many of these find room across a piece. */
-const [LINE_PIXELS, TEXT_PIXELS, TEXTS_ACROSS] = [1.2, 12, 5];
+/** Width of the lines of a drawing that is shown, and wanted size of its texts, in CSS pixels; how many of these find room across a piece, and how many titles across the height of a sheet. */
+const [LINE_PIXELS, TEXT_PIXELS, TEXTS_ACROSS, TITLES_HIGH] = [1.2, 12, 5, 3];
 
 /** Longer side of a result seen from above, in the unit of its input. @param {Result} result */
 export function longerSide({ input: { width, height, pixelSize } }) {
@@ -135,9 +135,12 @@ export async function drawingImage(api, drawing, frame, zoom = 1) {
     `<rect x="${x}" y="${drawing.height - y - high}" width="${wide}" height="${high}" fill="none" stroke="#ccd3d8" stroke-width="0"/>`).join('')}`).replace(/stroke-width="[^"]*"/g, `stroke-width="${width}"`)
     .replace(/stroke-dasharray="([^"]*)"/g, (_, dashes) => `stroke-dasharray="${dashes.split(' ').map((/** @type {string} */ dash) => 3 * Number(dash) * width).join(' ')}"`)
     .replace(/id="label"/, `$& paint-order="stroke" stroke="#fff" stroke-width="${3 * width}"`)
-    .replace(/dy="[^"]*" font-size="([^"]*)"/g, (_, given) => {
-      const size = Math.max(given, Math.min(room, TEXT_PIXELS * pixel));
-      return `dy="${0.35 * size}" font-size="${size}"`;
+    .replace(/class="([^"]*)" data-sheet="([^"]*)" dy="([^"]*)" font-size="([^"]*)"/g, (_, kind, sheet, dy, given) => {
+      // Titles stand above their sheets, and grow upwards: small above small ones, or they would lie on others.
+      const isTitle = kind === 'sheet';
+      const [[left, bottom], [right, top]] = drawing.sheets[sheet - 1].bounds;
+      const size = Math.max(given, Math.min(isTitle ? Math.min((right - left) / TEXTS_ACROSS, (top - bottom) / TITLES_HIGH) : room, TEXT_PIXELS * pixel));
+      return `dy="${isTitle ? dy : 0.35 * size}" font-size="${size}"`;
     });
   const address = URL.createObjectURL(new Blob([svg], { type: 'image/svg+xml' }));
   try {

@@ -6,17 +6,18 @@
 /** Maximum distance of a click from its edge, as a share of the drawing's longer side. */
 const MAX_CLICK_SHARE = 0.027;
 
-/** The edge nearest to a place. @param {Drawing} drawing @param {Place} place @returns {{ pair: Pair, isFold: boolean } | null} null without an edge there */
+/** The edge nearest to a place, with the lines where it is drawn: for a cut, those are its letters. @param {Drawing} drawing @param {Place} place @returns {{ pair: Pair, isFold: boolean, lines: (readonly Place[])[] } | null} null without an edge there */
 export function edgeAt({ width, height, sheets }, place) {
-  const folds = sheets.flatMap((sheet) => sheet.folds).map(({ points, patches }) => (
-    { patches, isFold: true, distance: Math.min(...points.slice(1).map((to, i) => distanceFrom(points[i], to, place))) }));
-  const cuts = sheets.flatMap((sheet) => sheet.labels).flatMap(({ patches, place: at }) => (
-    patches ? [{ patches, isFold: false, distance: distanceFrom(at, at, place) }] : []));
-  const [nearest] = [...folds, ...cuts].sort((one, other) => one.distance - other.distance);
+  const edges = [
+    ...sheets.flatMap(({ folds }) => folds).map(({ points, patches }) => ({ points, patches, isFold: true })),
+    ...sheets.flatMap(({ labels }) => labels).flatMap(({ patches, place: at }) => (patches ? [{ points: [at, at], patches, isFold: false }] : [])),
+  ].map((edge) => ({ ...edge, distance: Math.min(...edge.points.slice(1).map((to, i) => distanceFrom(edge.points[i], to, place))) }));
+  const [nearest] = edges.toSorted((one, other) => one.distance - other.distance);
   if (!nearest || nearest.distance > MAX_CLICK_SHARE * Math.max(width, height)) return null;
-  const [a, b] = nearest.patches;
+  const { patches: [a, b], isFold } = nearest;
   // A slit has the same patch on both sides.
-  return a === b ? null : { pair: [a + 1, b + 1], isFold: nearest.isFold };
+  if (a === b) return null;
+  return { pair: [a + 1, b + 1], isFold, lines: edges.filter((one) => one.isFold === isFold && String(one.patches) === String([a, b])).map(({ points }) => points) };
 }
 
 /** The distance of a place from a segment. @param {Place} a @param {Place} b @param {Place} place */

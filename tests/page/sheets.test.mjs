@@ -97,15 +97,37 @@ doorTest('a fold that is clicked in the drawing is cut', async (page) => {
   const shown = await image.boundingBox();
   assert.ok(shown);
   const [x, y] = middleOf(drawing.sheets[0].folds[0].points);
-  await page.mouse.click(shown.x + (x / drawing.width) * shown.width, shown.y + (1 - y / drawing.height) * shown.height);
+  /** @param {{ width: number, height: number }} drawing @param {[number, number]} place @returns {[number, number]} */
+  const onScreen = ({ width, height }, [x, y]) => [shown.x + (x / width) * shown.width, shown.y + (1 - y / height) * shown.height];
+  const [note, mark] = [page.locator('.edges [role="status"]'), page.locator('.preview path')];
+  await page.mouse.move(...onScreen(drawing, [x, y]));
+  await note.filter({ hasText: /^Fold between pieces \d and \d: click to cut it\.$/ }).waitFor();
+  assert.match(await mark.getAttribute('d') ?? '', /^M/, 'it is marked');
+  await page.mouse.click(...onScreen(drawing, [x, y]));
   await page.locator(`.preview[aria-busy="false"] img:not([src="${address}"])`).waitFor();
   const [pair] = parsePairs(await toCut.inputValue()) ?? [];
   assert.deepEqual([pair, await toJoin.inputValue()], [edgeAt(drawing, [x, y])?.pair, '']);
+  assert.equal(await note.innerText(), `Pieces ${pair?.join(' and ')} are cut apart now.`);
   // Undone and done again.
-  for (const [keys, wanted] of [['Control+z', ''], ['Control+Shift+z', String(pair?.join('-'))]]) {
-    await workBy(page, '.preview[aria-busy="true"]', () => page.locator('#save-title').press(keys));
+  for (const [act, wanted] of /** @type {const} */ ([[() => page.locator('.edges').getByRole('button', { name: 'Undo' }).click(), ''], [() => page.locator('#save-title').press('Control+Shift+z'), String(pair?.join('-'))]])) {
+    await workBy(page, '.preview[aria-busy="true"]', act);
     assert.equal(await toCut.inputValue(), wanted);
   }
+  // Three faces about a corner of the box cannot all be folded to each other.
+  await page.locator('.edges summary').click();
+  await workBy(page, '.preview[aria-busy="true"]', () => toCut.fill(''));
+  await workBy(page, '.preview[aria-busy="true"]', () => toJoin.fill('1-3, 1-5'));
+  const joined = await pattern(box, { size: 60, tabs: 6, stock: 'letter', join: [[1, 3], [1, 5]] });
+  dispose();
+  const cut = joined.sheets.flatMap(({ labels }) => labels).find(({ place }) => String(edgeAt(joined, place)?.pair) === '3,5' && !edgeAt(joined, place)?.isFold);
+  assert.ok(cut);
+  Object.assign(shown, await image.boundingBox());
+  await page.mouse.click(...onScreen(joined, cut.place));
+  await note.filter({ hasText: /^Pieces 3 and 5 stay cut apart: / }).waitFor();
+  assert.equal(await toJoin.inputValue(), '1-3, 1-5');
+  await workBy(page, '.preview[aria-busy="true"]', () => toJoin.fill('1-3, 1-5, 3-5'));
+  await page.locator('#sheet-join-wrong', { hasText: /^With all these folds/ }).waitFor();
+  await toJoin.fill('');
   await page.locator('#save-now:enabled').waitFor();
   // Of a drawing of 5 m, too, one sees the lines.
   await workBy(page, '.preview[aria-busy="true"]', () => page.getByLabel('Longer side when finished').fill('2000'));
@@ -119,7 +141,6 @@ doorTest('a fold that is clicked in the drawing is cut', async (page) => {
   assert.ok(inked > shown.width, `${inked} pixels of lines`);
   // A file that is still being written cannot be saved either.
   await page.locator('#save-now:enabled').waitFor();
-  await page.locator('.edges summary').click();
   await toCut.fill('1-');
   await toCut.press('Tab');
   assert.equal(await toCut.getAttribute('aria-invalid'), 'true');

@@ -91,7 +91,15 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
   /** Thickness of a solid of sheet metal. @type {number | undefined} */
   let thickness;
   const byNumber = make('details', 'more', make('summary', 'small', SHEET_WORDS.byNumber), ...fields.nodes('sheet-cut', 'sheet-join'));
-  const edges = Object.assign(make('div', 'edges', make('p', 'small', SHEET_WORDS.edges), byNumber), { hidden: true });
+  const edgeNote = make('p', 'small');
+  edgeNote.role = 'status';
+  const undo = makeButton('plain', () => history.step(), SHEET_WORDS.undo);
+  const edges = Object.assign(make('div', 'edges', make('div', 'several', edgeNote, undo), byNumber), { hidden: true });
+  /** The edge that was clicked, until it is drawn, and what is said when that is done. @type {[clicked: ReturnType<typeof edgeAt>, words: string]} */
+  let [clicked, edgeWords] = [null, SHEET_WORDS.edges];
+  /** The edge under the pointer, over the drawing. */
+  const [mark, markPath] = ['svg', 'path'].map((name) => document.createElementNS('http://www.w3.org/2000/svg', name));
+  mark.append(markPath);
   /** Number of pieces of the last drawing. */
   let pieces = Infinity;
   /** @returns {CutOptions} */
@@ -125,7 +133,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     void draw();
   });
   const status = Object.assign(make('p', 'said'), { role: 'status' });
-  const waitingElement = Object.assign(make('div', 'waiting'), { id: 'cutting' });
+  const waitingElement = Object.assign(make('div', 'waiting over-picture'), { id: 'cutting' });
   /** Whether the surface is being solved with another detail: then what there is is offered again. */
   let isSolving = false;
   const waiting = waitingPanel(waitingElement, () => {
@@ -167,10 +175,14 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     warning.hidden = fit.hidden = true;
     about.replaceChildren();
   };
+  /** The sides of each sheet, the shorter one first. @param {Drawing} finished */
+  const sidesOf = ({ sheets }) => sheets.map(({ bounds: [[left, bottom], [right, top]] }) => [right - left, top - bottom].sort((a, b) => a - b));
+  /** Whether each sheet is on one page of the paper. @param {Drawing} finished */
+  const isOnPages = (finished) => sidesOf(finished).every((sides) => sides.every((side, k) => side <= PAPERS[paper() || 'a4'][k] - 2 * PAGE_MARGIN_MM + 1e-6));
   /** Shows the size of the finished surface and the number of pages. @param {Drawing} finished */
   const showSize = (finished) => {
     const { summary } = finished;
-    const smallest = Math.min(...finished.sheets.map(({ bounds: [[left, bottom], [right, top]] }) => Math.max(right - left, top - bottom)));
+    const smallest = Math.min(...sidesOf(finished).map(([, longer]) => longer));
     const stock = paper();
     const pages = stock === '' ? 1 : summary[stock];
     element('save-title', HTMLElement).textContent = SHEET_WORDS.headline(number(side(), 4), pages, summary.seams, finished.sheets.length > 1 ? number(smallest, 2) : undefined);
@@ -178,7 +190,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     // Tabs stay as deep as they are.
     const beside = cutOptions().tabs ? 2 * fields.number('sheet-tab-depth') : 0;
     const room = stock === '' ? [] : PAPERS[stock].map((length) => length - 2 * PAGE_MARGIN_MM - beside);
-    const shares = finished.sheets.map(({ bounds: [[left, bottom], [right, top]] }) => [right - left, top - bottom].sort((a, b) => a - b).map((length, k) => room[k] / (length - beside))).flat();
+    const shares = sidesOf(finished).flatMap((sides) => sides.map((length, k) => room[k] / (length - beside)));
     const fitting = Math.floor(side() * Math.min(...shares));
     fit.hidden = !(pages > finished.sheets.length && fitting >= MIN_SIDE_MM && fitting < side());
     [fit.value, fit.textContent] = [String(fitting), SHEET_WORDS.fit(number(fitting, 4))];
@@ -221,21 +233,41 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
       edges.hidden = !isExact || finished.summary.folds + finished.summary.seams === 0;
       fields.show(isExact && !isMetal() && paper() !== '', 'sheet-fitting');
       pieces = Math.max(...finished.sheets.flatMap((sheet) => sheet.patches)) + 1;
-      image.addEventListener('click', ({ offsetX, offsetY }) => {
-        if (!edges.hidden) toggleEdge(finished, [(offsetX / image.clientWidth) * finished.width, (1 - offsetY / image.clientHeight) * finished.height]);
+      /** @param {MouseEvent} event */
+      const edgeUnder = ({ offsetX, offsetY }) => (edges.hidden ? null : edgeAt(finished, [(offsetX / image.clientWidth) * finished.width, (1 - offsetY / image.clientHeight) * finished.height]));
+      image.addEventListener('click', (event) => {
+        if (!edges.hidden) toggleEdge(edgeUnder(event));
       });
-      preview.replaceChildren(image);
+      image.addEventListener('pointermove', (event) => markEdge(finished, edgeUnder(event)));
+      image.addEventListener('pointerleave', () => markEdge(finished, null));
+      mark.setAttribute('viewBox', `0 0 ${finished.width} ${finished.height}`);
+      mark.style.setProperty('--aspect', String(finished.width / finished.height));
+      markPath.removeAttribute('d');
+      preview.replaceChildren(image, mark);
+      edgeNote.textContent = clicked ? SHEET_WORDS.toggled(clicked.pair, clicked.isFold) : edgeWords;
+      undo.hidden = clicked === null;
+      [clicked, edgeWords] = [null, SHEET_WORDS.edges];
       // What is enlarged is seen from its middle on.
       preview.scrollTo((preview.scrollWidth - preview.clientWidth) / 2, (preview.scrollHeight - preview.clientHeight) / 2);
-      status.textContent = countsInWords(finished, isExact && cutOptions().stock !== undefined);
+      status.textContent = countsInWords(finished, isExact && cutOptions().stock !== undefined && isOnPages(finished));
       about.replaceChildren(figures(sheetFigures(finished)), make('ol', 'small', ...buildSteps(finished).map((step) => make('li', '', step))));
     } catch (error) {
       if (requested !== drawing) return;
+      const reason = plainMessage(error);
+      const isOverlapping = /“join” as folds/.test(reason);
+      if (clicked && isOverlapping) {
+        [edgeWords, clicked] = [SHEET_WORDS.unfoldable(clicked.pair), null];
+        return history.step();
+      }
+      clicked = null;
       preview.replaceChildren();
       clear();
-      const reason = plainMessage(error);
       const [, ...pair] = /patches (\d+) and (\d+) have no edge/.exec(reason)?.map(Number) ?? [];
-      status.textContent = pair.length > 0 ? '' : hasCode(error, 'CURVED_FOLD') ? SHEET_WORDS.curvedFold : SHEET_WORDS.uncut(reason);
+      status.textContent = pair.length > 0 || isOverlapping ? '' : hasCode(error, 'CURVED_FOLD') ? SHEET_WORDS.curvedFold : SHEET_WORDS.uncut(reason);
+      if (isOverlapping) {
+        [edges.hidden, byNumber.open] = [false, true];
+        fields.blame('sheet-join', SHEET_WORDS.unfoldableAll);
+      }
       for (const name of /** @type {const} */ (['sheet-cut', 'sheet-join'])) {
         if (!parsePairs(fields.text(name))?.some((one) => String(one) === String(pair))) continue;
         [edges.hidden, byNumber.open] = [false, true];
@@ -248,13 +280,21 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     preview.setAttribute('aria-busy', 'false');
     waiting.end();
   };
-  /** Cuts the fold at a place of the drawing, or folds the cut there; again, it is as before. @param {Drawing} finished @param {[number, number]} place */
-  const toggleEdge = (finished, place) => {
-    const edge = edgeAt(finished, place);
+  /** Marks an edge of the drawing, and says what a click does to it. @param {Drawing} finished @param {ReturnType<typeof edgeAt>} edge */
+  const markEdge = ({ height }, edge) => {
+    const path = edge?.lines.map((line) => `M${line.map(([x, y]) => `${x} ${height - y}`).join('L')}`).join('') ?? '';
+    if (path === (markPath.getAttribute('d') ?? '')) return;
+    markPath.setAttribute('d', path);
+    mark.classList.toggle('letters', edge?.isFold === false);
+    edgeNote.textContent = edge ? SHEET_WORDS.edge(edge.pair, edge.isFold) : SHEET_WORDS.edges;
+  };
+  /** Cuts a fold, or folds a cut; again, it is as before. @param {ReturnType<typeof edgeAt>} edge */
+  const toggleEdge = (edge) => {
     if (!edge) {
-      status.textContent = SHEET_WORDS.noEdge;
+      edgeNote.textContent = SHEET_WORDS.noEdge;
       return;
     }
+    clicked = edge;
     const [own, other] = edge.isFold ? /** @type {const} */ (['sheet-cut', 'sheet-join']) : /** @type {const} */ (['sheet-join', 'sheet-cut']);
     const isUndone = (parsePairs(fields.text(other)) ?? []).some((pair) => String(pair) === String(edge.pair));
     const name = isUndone ? other : own;
@@ -285,16 +325,15 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     status,
     warning,
     legend,
+    edges,
     enlarge,
     fit,
     ...(note ? [make('p', 'small', note)] : []),
-    waitingElement,
     again,
     ...(isFitted ? fields.nodes('sheet-detail') : []),
     ...fields.nodes('sheet-unit', 'sheet-side', 'sheet-paper', 'sheet-fitting', 'sheet-material', 'sheet-tabs', 'sheet-tab-depth'),
     metalNote,
     ...fields.nodes('sheet-thickness', 'sheet-radius', 'sheet-k', 'sheet-kerf'),
-    edges,
     make('details', 'more', make('summary', '', SHEET_WORDS.figures), about));
   options.addEventListener('input', ({ target }) => {
     clearTimeout(inputTimer);
@@ -318,7 +357,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
       // What was chosen last is kept, though it was not drawn yet.
       if (!fields.check()) keepOptions();
     },
-    extra: [make('div', 'sheets', preview, options)],
+    extra: [make('div', 'sheets', preview, waitingElement, options)],
     formats: [
       { value: 'pdf', name: 'PDF', words: SHEET_WORDS.pdf, type: 'application/pdf',
         write: async (worker) => worker.writePdf(await drawing, { stock: paper() || undefined, title: stem }) },

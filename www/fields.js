@@ -118,7 +118,7 @@ export function choiceOf(name, options, onChange) {
   const labels = radios.map((radio) => make('label', '', radio, make('span', '', options[radio.value])));
   const box = element(`${name}-choice`, HTMLElement);
   box.append(...labels);
-  box.addEventListener('change', ({ target }) => onChange(/** @type {HTMLInputElement} */ (target).value));
+  for (const radio of radios) radio.addEventListener('change', () => onChange(radio.value));
   return {
     box,
     /** The value that is chosen; empty if none is. */

@@ -18,7 +18,7 @@ export const STOP_REASONS = {
 };
 
 /** Names of the views. */
-export const VIEW_LABELS = { shaded: 'Shaded', photo: 'Photo', gaussian: 'Curvature K', kappa2: 'Curvature κ₂', rulings: 'Rulings', patches: 'Patches', sheet: 'Laid flat' };
+export const VIEW_LABELS = { shaded: 'Shaded', photo: 'Photo', patches: 'Patches', sheet: 'Laid flat', gaussian: 'Curvature K', kappa2: 'Curvature κ₂', rulings: 'Rulings' };
 /** What each view shows, in one sentence. @type {Record<string, string>} */
 export const VIEW_WORDS = {
   shaded: 'Input and result stand in the same light. Smooth pieces shine evenly, creases are sharp lines.',

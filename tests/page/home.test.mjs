@@ -67,6 +67,11 @@ pageTest('behind each door is an example, one click away, and Back leads to the 
   await page.locator('[data-example="model"]').click();
   await solvedWhole(page);
   assert.match(await page.locator('#mesh-name').innerText(), /house \(OBJ\)/);
+  // What one needs for sheets, and the rest one click away.
+  const [views, others] = ['#view-choice', '#view-others'].map((box) => page.locator(box).getByRole('radio'));
+  assert.deepEqual([await views.count(), await others.count(), await page.getByText('From one side').isVisible()], [3, 0, false]);
+  await page.getByText('More views').click();
+  assert.equal(await others.count(), 2);
   // Its faces are flat: colours between its corners would be none of theirs.
   await choose(page.getByRole('radio', { name: 'Curvature K' }));
   await page.locator('#stage[data-busy="false"] #about-view', { hasText: 'all faces are flat' }).waitFor();

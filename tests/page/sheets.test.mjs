@@ -198,7 +198,10 @@ doorTest('a sheet that takes several pages is made to fit one', async (page) => 
   await fit.waitFor();
   assert.match(await page.locator('.sheets .said').innerText(), /^One sheet/);
   await page.getByLabel('Pieces that fit one page').check();
-  await page.locator('.sheets .said', { hasText: /^6 sheets that each fit a page, / }).waitFor();
+  await page.locator('.sheets .said', { hasText: /^6 sheets, / }).waitFor();
+  await page.getByLabel('Longer side when finished').fill('150');
+  await page.locator('.sheets .said', { hasText: /^\d sheets that each fit a page, / }).waitFor();
+  await page.getByLabel('Longer side when finished').fill('300');
   await page.getByLabel('Pieces that fit one page').uncheck();
   await page.locator('.sheets .said', { hasText: /^One sheet/ }).waitFor();
   await fit.click();

@@ -125,6 +125,19 @@ doorTest('a model that is opened first turns, too, once it can be drawn, and mea
   while ((await look(page, '#space-canvas')).hash === first) await painted(page);
 }, { drawn: true, moving: true });
 
+doorTest('a model that lies on its back is stood up, and laid down again', async (page) => {
+  await openWhole(page, 'box.obj', obj(noisyBox(4, 0)));
+  await page.waitForFunction(() => document.querySelector('canvas#space-canvas:not([width="300"], :not([width]))'));
+  const turn = page.getByRole('button', { name: 'Quarter turn' });
+  const alike = [];
+  const lying = await brightness(page, '#space-canvas');
+  for (let i = 0; i < 2; i++) {
+    await turn.click();
+    alike.push(correlation(lying, await brightness(page, '#space-canvas')));
+  }
+  assert.ok(alike[0] < 0.9 && alike[1] > 0.99, alike.join());
+}, { drawn: true });
+
 pageTest('without WebGL that is said, and the rest works', async (page) => {
   assert.match(await page.locator('#space-missing').innerText(), /no WebGL/);
   assert.equal(await page.locator('#space-canvas').isVisible(), false);

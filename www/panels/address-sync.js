@@ -115,7 +115,7 @@ export function addressSyncPanel(session, page) {
     void updateRecentFiles();
   });
   // A change of the view gets no entry of its own in the history.
-  element('view-choice', HTMLElement).addEventListener('change', writeAddress);
+  for (const name of ['choice', 'others']) element(`view-${name}`, HTMLElement).addEventListener('change', writeAddress);
 
   /** Opens stored photos of pages. @param {number} id @returns {Promise<boolean>} whether they were stored */
   const openStoredPhotos = async (id) => {

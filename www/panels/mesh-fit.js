@@ -34,8 +34,10 @@ export function meshFitPanel(session, meshFit, stage, heights) {
   /** Whether the mesh is solved whole without being asked for: if that fails, it is shown from one side. */
   let isFirstSolve = false;
 
+  /** Whether another axis points upwards than in other files of the kind. */
+  let isTurned = false;
   /** The axis of the mesh that points upwards. */
-  const upAxis = () => (Y_UP_KINDS.includes(session.input?.kind ?? '') ? 'y' : 'z');
+  const upAxis = () => (Y_UP_KINDS.includes(session.input?.kind ?? '') !== isTurned ? 'y' : 'z');
   const stem = () => `${session.input?.name ?? 'mesh'}-developable`;
   /** @param {(surface: MeshSurface, mesh: Mesh, tell: Tell) => ReturnType<View>} prepare @returns {View} */
   const ofSurface = (prepare) => (tell) => prepare(/** @type {MeshSurface} */ (meshFit.surface), /** @type {Mesh} */ (meshFit.mesh), tell);
@@ -167,6 +169,10 @@ export function meshFitPanel(session, meshFit, stage, heights) {
     showOneSide();
     hint.textContent = `${MESH_FIT_WORDS.unsolved} ${reason}`;
   });
+  element('quarter-turn', HTMLButtonElement).addEventListener('click', () => {
+    isTurned = !isTurned;
+    stage.begin(whole);
+  });
   report.addEventListener('click', () => {
     if (meshFit.surface) download(`${JSON.stringify(meshFit.surface.report, null, 2)}\n`, 'application/json', `${stem()}-report.json`);
   });
@@ -174,7 +180,10 @@ export function meshFitPanel(session, meshFit, stage, heights) {
 
   session.on('input', ({ sampling, lattice }) => {
     const mesh = sampling?.mesh ?? null;
-    if (mesh !== inputMesh && stage.subject === whole) leave();
+    if (mesh !== inputMesh) {
+      isTurned = false;
+      if (stage.subject === whole) leave();
+    }
     inputMesh = mesh && mesh.triangles.length > 0 ? mesh : null;
     way.box.hidden = inputMesh === null;
     hint.textContent = inputMesh && lattice?.hidden ? MESH_FIT_WORDS.hidden(percent(lattice.hidden)) : '';

@@ -79,6 +79,8 @@ export function stagePanel(first) {
   const divider = dividerOver('divider', ['input', 'result'], (share) => view?.divide(share));
   const choice = choiceOf('view', VIEW_LABELS, () => restart());
   const chosen = () => choice.value;
+  /** The choices of views that a model seldom needs: they are folded beside it. */
+  const researchViews = elements(['gaussian', 'kappa2', 'rulings'].map((value) => `#view-choice label:has([value=${value}])`).join(), HTMLLabelElement);
 
   /** Whether the scene was asked for from above before it was there. */
   let startsFromAbove = false;
@@ -108,6 +110,7 @@ export function stagePanel(first) {
     mark.textContent = subject.mark();
     mark.hidden = !mark.textContent;
     report.hidden = !subject.isWhole || !subject.isSolved();
+    element('quarter-turn', HTMLButtonElement).hidden = !subject.isWhole;
     const isFlat = shown.flat !== undefined;
     element('space-missing', HTMLElement).hidden = !isMissing || isFlat;
     canvas.hidden = isMissing || isFlat;
@@ -268,6 +271,7 @@ export function stagePanel(first) {
       subject.stop();
       subject = next;
       side.toggleAttribute('data-whole', next.isWhole);
+      (next.isWhole ? element('view-others', HTMLElement) : choice.box).append(...researchViews);
       turnsAtFirst = false;
       shown = {};
       // A model is cut out, a scan is saved.

@@ -185,6 +185,8 @@ export class SceneView {
     this.#ground.visible = true;
     // A little aside, so that the shadow shows at the foot of the surface.
     this.#shadowLight.position.set(x + 0.25 * y, y + 0.25 * z, z + 0.25 * x).multiplyScalar(SHADOW_LIGHT_DISTANCE);
+    // From where it lies, it would look elsewhere.
+    this.#ground.position.setScalar(0);
     this.#ground.lookAt(x, y, z);
     this.#layGround();
   }

@@ -20,12 +20,7 @@ import { noDataOf } from './import-interpretation.js';
 /** Settings that are positive numbers. @type {readonly (keyof Settings)[]} */
 const NUMERIC_SETTINGS = ['gap', 'coarsening', 'occlusionThreshold'];
 
-/**
- * Encodes a state as a fragment.
- * @param {State} state
- * @param {Readonly<Settings>} defaults
- * @returns {string} fragment with its #
- */
+/** Encodes a state as a fragment. @param {State} state @param {Readonly<Settings>} defaults @returns {string} fragment with its # */
 export function addressOf({ card, example, file, linked, stored, settings, whole, photo, unkept, view }, defaults) {
   const parameters = new URLSearchParams();
   for (const [name, value] of Object.entries({ example: example?.name, size: example?.size, noise: example?.noise, file, ...stored })) if (value !== undefined) parameters.set(name, String(value));

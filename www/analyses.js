@@ -55,12 +55,7 @@ export class Analyses extends Tasks {
     });
   }
 
-  /**
-   * A pattern of the surface; a large surface is reduced to a coarser lattice first.
-   * @param {Result} result
-   * @param {PatternOptions} options
-   * @param {Tell} tell
-   */
+  /** A pattern of the surface; a large surface is reduced to a coarser lattice first. @param {Result} result @param {PatternOptions} options @param {Tell} tell */
   pattern(result, options, tell) {
     const { surface } = result;
     const { width, height } = result.image;

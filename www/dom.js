@@ -14,13 +14,7 @@ export function element(id, type) {
   return found;
 }
 
-/**
- * All elements of one type that match a selector.
- * @template {Element} T
- * @param {string} selector
- * @param {new () => T} type
- * @returns {T[]}
- */
+/** All elements of one type that match a selector. @template {Element} T @param {string} selector @param {new () => T} type @returns {T[]} */
 export function elements(selector, type) {
   /** @param {Element} found @returns {found is T} */
   const typed = (found) => found instanceof type;
@@ -72,11 +66,7 @@ export async function copyText(button, text, words = 'Copied') {
   setTimeout(() => (button.textContent = label), COPIED_NOTE_MS);
 }
 
-/**
- * Keeps the resolution of a canvas at that of the device.
- * @param {HTMLCanvasElement} canvas
- * @param {() => void} onResize called after every change, which clears the canvas
- */
+/** Keeps the resolution of a canvas at that of the device. @param {HTMLCanvasElement} canvas @param {() => void} onResize called after every change, which clears the canvas */
 export function matchDevicePixels(canvas, onResize) {
   const fit = () => {
     const ratio = window.devicePixelRatio;
@@ -107,12 +97,7 @@ export function make(tag, className, ...children) {
   return made;
 }
 
-/**
- * Creates a button.
- * @param {string} className
- * @param {() => unknown} act called when it is clicked
- * @param {...(Node | string)} children
- */
+/** Creates a button. @param {string} className @param {() => unknown} act called when it is clicked @param {...(Node | string)} children */
 export function makeButton(className, act, ...children) {
   const made = make('button', className, ...children);
   made.type = 'button';
@@ -120,12 +105,7 @@ export function makeButton(className, act, ...children) {
   return made;
 }
 
-/**
- * Downloads a file.
- * @param {Uint8Array<ArrayBuffer> | Blob | string} content
- * @param {string} type
- * @param {string} name
- */
+/** Downloads a file. @param {Uint8Array<ArrayBuffer> | Blob | string} content @param {string} type @param {string} name */
 export function download(content, type, name) {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(new Blob([content], { type }));

@@ -14,20 +14,12 @@ export function count(n) {
 /** An integer with its noun. @param {number} n @param {string} one @param {string} [many] */
 export const countOf = (n, one, many = `${one}s`) => `${count(n)} ${n === 1 ? one : many}`;
 
-/**
- * A number, or 0 if it is a rounding error compared with a typical value of its quantity.
- * @param {number} value
- * @param {number} typicalValue
- */
+/** A number, or 0 if it is a rounding error compared with a typical value of its quantity. @param {number} value @param {number} typicalValue */
 export function numberAgainst(value, typicalValue) {
   return number(Math.abs(value) < MIN_SHARE * Math.abs(typicalValue) ? 0 : value, 2);
 }
 
-/**
- * A number, by a power of ten if it is very large or very small.
- * @param {number} value
- * @param {number} [digits] maximum number of significant digits
- */
+/** A number, by a power of ten if it is very large or very small. @param {number} value @param {number} [digits] maximum number of significant digits */
 export function number(value, digits = 3) {
   if (!Number.isFinite(value)) return '–';
   const size = Math.abs(value);

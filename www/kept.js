@@ -1,13 +1,7 @@
 /** What the user has chosen, kept in the local storage for the next visit. */
 import { elements } from './dom.js';
 
-/**
- * What was kept under a name.
- * @template T
- * @param {string} name
- * @param {T} otherwise where nothing was, or the browser keeps nothing
- * @returns {T}
- */
+/** What was kept under a name. @template T @param {string} name @param {T} otherwise where nothing was, or the browser keeps nothing @returns {T} */
 export function kept(name, otherwise) {
   try {
     return JSON.parse(localStorage.getItem(`developable: ${name}`) ?? 'null') ?? otherwise;

@@ -48,11 +48,7 @@ function solidOf({ positions, triangles }, { side, thickness, onBase }) {
 /** Smallest cosine between a vertex's normal and its faces for which the shell keeps its thickness there; a sharper edge would become a spike. */
 const MIN_MITRE_COSINE = 0.5;
 
-/**
- * Directions in which the vertices move for a shell whose faces move by 1 along their normals.
- * @param {Float64Array} positions
- * @param {Uint32Array} triangles
- */
+/** Directions in which the vertices move for a shell whose faces move by 1 along their normals. @param {Float64Array} positions @param {Uint32Array} triangles */
 function mitreDirections(positions, triangles) {
   const directions = new Float64Array(positions.length);
   const areas = new Float64Array(positions.length / 3);

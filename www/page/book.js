@@ -44,11 +44,7 @@ export class Book {
     [this.photos, this.index] = [files.map((file, i) => ({ file, state: states[i] ?? null })), 0];
   }
 
-  /**
-   * Adds photos at the end. A photo that is there already is not added again.
-   * @param {readonly File[]} files
-   * @returns {number[]} indices of the photos
-   */
+  /** Adds photos at the end. A photo that is there already is not added again. @param {readonly File[]} files @returns {number[]} indices of the photos */
   addFiles(files) {
     return files.map((file) => {
       const at = this.photos.findIndex(({ file: { name, size, lastModified } }) => name === file.name && size === file.size && lastModified === file.lastModified);

@@ -1,7 +1,4 @@
-/**
- * Handles over a photo: points that are dragged by mouse, pen or finger, or moved by the arrow keys, and the lines through
- * them. Dragging a line makes a new point.
- */
+/** Handles over a photo: points that are dragged by mouse, pen or finger, or moved by the arrow keys, and the lines through them. Dragging a line makes a new point. */
 import { make } from '../dom.js';
 import { ARROW_DIRECTIONS } from '../surface/zoom.js';
 import { Magnifier } from './magnifier.js';
@@ -209,12 +206,7 @@ export class Handles {
   }
 }
 
-/**
- * Creates an SVG element.
- * @template {keyof SVGElementTagNameMap} T
- * @param {T} name
- * @param {Record<string, string>} attributes
- */
+/** Creates an SVG element. @template {keyof SVGElementTagNameMap} T @param {T} name @param {Record<string, string>} attributes */
 function svgElement(name, attributes) {
   const made = document.createElementNS('http://www.w3.org/2000/svg', name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);

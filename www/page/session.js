@@ -196,12 +196,7 @@ export class PageSession extends Events {
     this.#update(!ended);
   }
 
-  /**
-   * Adds a node to an edge.
-   * @param {Edge} edge
-   * @param {[number, number]} place
-   * @param {boolean} [pulled] whether the new node is being dragged already
-   */
+  /** Adds a node to an edge. @param {Edge} edge @param {[number, number]} place @param {boolean} [pulled] whether the new node is being dragged already */
   add(edge, place, pulled = false) {
     const [line, ...others] = this.traces[edge];
     const index = this.outline.add(edge, place, others.length === 0 ? line : []);

@@ -2,11 +2,7 @@
 
 /** @typedef {{ text: string, box: readonly [number, number, number, number] }} TextLine a line of text; `box`: left, top, width and height in pixels */
 
-/**
- * The lines of English text in a picture, found in a worker of its own, which ends with them.
- * @param {ImageData} image
- * @returns {Promise<TextLine[]>}
- */
+/** The lines of English text in a picture, found in a worker of its own, which ends with them. @param {ImageData} image @returns {Promise<TextLine[]>} */
 export async function linesIn(image) {
   const { OCRClient } = await import(new URL('../vendor/text-client.js', import.meta.url).href);
   const [wasmBinary, packed] = await Promise.all([new URL('../vendor/text-core.wasm', import.meta.url), new URL('../vendor/text-english.bin', import.meta.url)].map((url) => fetch(url)));

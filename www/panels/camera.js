@@ -17,10 +17,7 @@ const FIELDS = {
   'camera-scale': { label: 'Depth scale', value: '0.001', range: above(0) },
 };
 
-/**
- * @param {Session} session
- * @param {(origin: InputOrigin, load: (signal: AbortSignal) => Promise<Mesh>, doing: string, task: Task) => Promise<boolean>} openLoadedMesh
- */
+/** @param {Session} session @param {(origin: InputOrigin, load: (signal: AbortSignal) => Promise<Mesh>, doing: string, task: Task) => Promise<boolean>} openLoadedMesh */
 export function cameraPanel(session, openLoadedMesh) {
   const depthCheckbox = element('is-depth', HTMLInputElement);
   const panel = element('camera', HTMLElement);

@@ -2,12 +2,7 @@
 import { element } from '../dom.js';
 import { errorMessage } from '../messages.js';
 
-/**
- * Shows a notice in the place of the last one.
- * @param {string} message
- * @param {'alert' | 'note'} [kind]
- * @param {{ label: string, act: () => void }} [action] of its button
- */
+/** Shows a notice in the place of the last one. @param {string} message @param {'alert' | 'note'} [kind] @param {{ label: string, act: () => void }} [action] of its button */
 export function showNotice(message, kind = 'alert', action) {
   const notice = element('notice', HTMLElement);
   element('notice-text', HTMLElement).textContent = message;

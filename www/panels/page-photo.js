@@ -114,12 +114,7 @@ export function pagePhotoPanel(session, history) {
   updateButtons();
 }
 
-/**
- * The middle of the longest segment between two neighbouring nodes of an edge.
- * @param {PageSession} session
- * @param {Edge} edge
- * @returns {[number, number]}
- */
+/** The middle of the longest segment between two neighbouring nodes of an edge. @param {PageSession} session @param {Edge} edge @returns {[number, number]} */
 function longestSegmentMiddle({ outline }, edge) {
   const nodes = outline.edges[edge];
   const lengths = nodes.slice(1).map((node, i) => Math.hypot(node.x - nodes[i].x, node.y - nodes[i].y));

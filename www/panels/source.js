@@ -198,11 +198,7 @@ export function sourcePanel(session, adopt, choose, onOpened, solveMesh, openCol
   });
 
   return {
-    /**
-     * Opens an example by its name.
-     * @param {string} name
-     * @param {{ size: number, noise: number }} options replaced by the nearest ones of the menus
-     */
+    /** Opens an example by its name. @param {string} name @param {{ size: number, noise: number }} options replaced by the nearest ones of the menus */
     async openExample(name, options) {
       examples.set('example', name in EXAMPLE_FIELDS.example.options ? name : 'roof');
       for (const option of /** @type {const} */ (['size', 'noise'])) {

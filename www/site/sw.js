@@ -53,11 +53,7 @@ listen('fetch', (event) => {
   event.respondWith((isCachedLater(url) ? laterFileFor(request) : fileFor(request)).then(isolated));
 });
 
-/**
- * Adds the headers of cross-origin isolation to a response. Shared memory needs them, and servers of static files seldom send
- * them.
- * @param {Response} response
- */
+/** Adds the headers of cross-origin isolation to a response. Shared memory needs them, and servers of static files seldom send them. @param {Response} response */
 function isolated(response) {
   // An opaque response, such as a redirection, cannot be changed.
   if (response.status === 0) return response;

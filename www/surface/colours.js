@@ -85,11 +85,7 @@ export function linearScale(maximum, label) {
   };
 }
 
-/**
- * Values without NaN in ascending order. Long fields are sampled.
- * @param {readonly ArrayLike<number>[]} fields
- * @param {(value: number) => number} [measure]
- */
+/** Values without NaN in ascending order. Long fields are sampled. @param {readonly ArrayLike<number>[]} fields @param {(value: number) => number} [measure] */
 export function sortedSample(fields, measure = (value) => value) {
   const total = fields.reduce((sum, { length }) => sum + length, 0);
   const step = Math.max(1, Math.floor(total / QUANTILE_SAMPLE_VALUES));

@@ -29,11 +29,7 @@ export function latticePositions({ cols, spacing, heights }) {
   });
 }
 
-/**
- * The pixels of an input, or those that show its lattice.
- * @param {Pick<Input, 'width' | 'height' | 'pixelSize' | 'lattice'>} input
- * @returns {Grid}
- */
+/** The pixels of an input, or those that show its lattice. @param {Pick<Input, 'width' | 'height' | 'pixelSize' | 'lattice'>} input @returns {Grid} */
 export function gridOf({ width, height, pixelSize, lattice }) {
   return lattice ? gridOverLattice(lattice) : { width, height, pixelSize, left: 0, top: height * pixelSize };
 }
@@ -79,11 +75,7 @@ export function interpolateToGrid(lattice, values, { width, height, pixelSize, l
   return Float64Array.from({ length: width * height }, (_, i) => at(left + (i % width + 0.5) * pixelSize, top - (Math.floor(i / width) + 0.5) * pixelSize));
 }
 
-/**
- * An index clamped to the range of `count` items; NaN if it is farther outside than pixels of the border reach.
- * @param {number} place
- * @param {number} count
- */
+/** An index clamped to the range of `count` items; NaN if it is farther outside than pixels of the border reach. @param {number} place @param {number} count */
 function clampToRange(place, count) {
   const inside = Math.min(count - 1, Math.max(0, place));
   return Math.abs(place - inside) < 0.6 ? inside : NaN;

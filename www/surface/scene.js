@@ -385,11 +385,7 @@ export class SceneView {
     return [((1 + x) / 2) * width, ((1 - y) / 2) * height];
   }
 
-  /**
-   * Finds the triangle at a place of the canvas.
-   * @param {{ offsetX: number, offsetY: number }} place
-   * @returns {Place | null} null without a triangle
-   */
+  /** Finds the triangle at a place of the canvas. @param {{ offsetX: number, offsetY: number }} place @returns {Place | null} null without a triangle */
   pick({ offsetX, offsetY }) {
     const { width, height } = this.#size;
     const side = this.#sides[1].surface && offsetX >= this.#divider * width ? 1 : 0;

@@ -32,11 +32,7 @@ export function fillTriangles({ width, height }, triangles, places, visit) {
   }
 }
 
-/**
- * The bounding box of places, without coordinates that are NaN.
- * @param {ArrayLike<number>} places
- * @param {number} [dimensions] coordinates of each
- */
+/** The bounding box of places, without coordinates that are NaN. @param {ArrayLike<number>} places @param {number} [dimensions] coordinates of each */
 export function boxOf(places, dimensions = 3) {
   const ends = Array.from({ length: dimensions }, (_, k) => {
     let [low, high] = [Infinity, -Infinity];

@@ -34,11 +34,7 @@ export function key(colour, words) {
   return made;
 }
 
-/**
- * A picture as it is saved: on the ground of the page, with a colour bar below.
- * @param {HTMLCanvasElement} drawn
- * @param {Colours} [colours]
- */
+/** A picture as it is saved: on the ground of the page, with a colour bar below. @param {HTMLCanvasElement} drawn @param {Colours} [colours] */
 export function pictureWithColours(drawn, colours) {
   const line = Math.round(drawn.width / 60);
   const picture = new OffscreenCanvas(drawn.width, drawn.height + (colours ? 6 * line : 0));

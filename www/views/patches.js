@@ -20,12 +20,7 @@ function aboutPatches(patches, creases, unit) {
   ];
 }
 
-/**
- * The patches and creases of heights.
- * @param {Input} input
- * @param {import('../../pkg/types.js').PatchMap} map
- * @returns {ViewContent}
- */
+/** The patches and creases of heights. @param {Input} input @param {import('../../pkg/types.js').PatchMap} map @returns {ViewContent} */
 export function patchesOfHeights({ unit }, map) {
   const { creases, labels, patches } = map;
   /** @param {number} x @param {number} y */

@@ -13,12 +13,7 @@ import { figures } from './legend.js';
 /** Distance of the scale bar from the left and from below, in CSS pixels. */
 const RULER_MARGIN = 12;
 
-/**
- * The view of heights laid flat.
- * @param {string} unit
- * @param {Awaited<ReturnType<Analyses['unroll']>>} unrolled
- * @returns {ViewContent}
- */
+/** The view of heights laid flat. @param {string} unit @param {Awaited<ReturnType<Analyses['unroll']>>} unrolled @returns {ViewContent} */
 export function sheetOfHeights(unit, { picture, report: { distortion, crossings, parts, plan }, verdict }) {
   return sheet(picture, unit, VERDICTS[verdict], [
     ['RMS strain', percent(distortion.rms)],
@@ -31,12 +26,7 @@ export function sheetOfHeights(unit, { picture, report: { distortion, crossings,
   ]);
 }
 
-/**
- * The view of a mesh laid flat.
- * @param {string} unit
- * @param {MeshUnrolling} unrolled
- * @returns {Promise<ViewContent>}
- */
+/** The view of a mesh laid flat. @param {string} unit @param {MeshUnrolling} unrolled @returns {Promise<ViewContent>} */
 export async function sheetOfMesh(unit, { triangles, places, stretches, report: { sheets, strain, seamGap, missing } }) {
   const picture = await callWorker('sheetStrainImage', triangles, places, stretches);
   return sheet(picture, unit, sheets === 1 ? 'One sheet, if the paper is large enough.' : `${count(sheets)} sheets.`, [
@@ -53,13 +43,7 @@ function sheet(picture, unit, said, facts) {
   return { flat: pictureOf(picture, unit, `The surface laid flat, ${size}`), said: `${said} Colour shows where it had to be stretched or compressed.`, colours: { title: 'Strain: blue is compressed, red is stretched', scale: linearScale(maxStrain, signedPercent) }, about: [figures([['Sheet size', size], ...facts])] };
 }
 
-/**
- * The picture of a sheet with a scale bar.
- * @param {Sheet} sheet
- * @param {string} unit
- * @param {string} words
- * @returns {Picture}
- */
+/** The picture of a sheet with a scale bar. @param {Sheet} sheet @param {string} unit @param {string} words @returns {Picture} */
 function pictureOf({ width, height, pixelsPerUnit, pixels, values }, unit, words) {
   const picture = imagePicture(canvasFromImage(new ImageData(new Uint8ClampedArray(pixels.buffer), width, height)), words, (x, y) => {
     const strain = values[Math.floor(y) * width + Math.floor(x)];

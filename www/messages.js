@@ -48,11 +48,10 @@ export const TASK_WORDS = {
 /** Messages about files that were dropped on the wrong part of the page, or that cannot be read. */
 export const FILE_WORDS = {
   noHeights: (/** @type {string} */ name) => `“${name}” has no heights. Open a photo, a model or a scan. If it is a camera, open it together with its depths.`,
-  takenForPages: (/** @type {number} */ n) => (n === 1 ? 'Taken for a photo of a page.' : 'Taken for photos of pages.'),
+  takenForPage: 'Taken for a photo of a page.',
   heightsInstead: 'Heights instead?',
   takenForHeights: 'Taken for heights.',
   openAsPage: 'Flatten it as a page',
-  inColour: (/** @type {string} */ name) => `“${name}” is in colour and has no heights. With its depths, open both together.`,
   /** @param {readonly { name: string }[]} files @param {'photo' | 'mesh' | 'depths'} beside what they came with */
   leftOut: (files, beside) => `Left out: ${files.map(({ name }) => `“${name}”`).join(', ')}. ${{ photo: 'With photos of pages go only photos and PDFs.', mesh: 'With a model go only the textures and materials that it names.', depths: 'With depths go one photo and the camera’s file.' }[beside]}`,
   openInstead: (/** @type {readonly { name: string }[]} */ files) => (files.length === 1 ? `Open “${files[0].name}” instead` : 'Open these instead'),

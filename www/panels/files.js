@@ -33,15 +33,9 @@ export function filesPanel(session, mode, source, page) {
     const isOtherMode = mode.now !== 'photo';
     const pageNote = await openIn('photo', () => page.openAll(files, isOtherMode));
     if (pageNote === null || mode.now !== 'photo') return;
-    const isGuess = isOtherMode && !areChosen;
-    const taken = isGuess ? FILE_WORDS.takenForPages(files.length) : '';
-    note([taken, pageNote, leftOut].filter(Boolean).join(' '), isGuess && files.length === 1 ? {
-      label: FILE_WORDS.heightsInstead,
-      act: async () => {
-        if (await isInColour(files[0])) return note(FILE_WORDS.inColour(files[0].name));
-        await openIn('heights', () => source.openFiles(files));
-      },
-    } : undefined);
+    // A picture in colour has no heights; a grey one may have.
+    const isGuess = isOtherMode && !areChosen && files.length === 1 && !(await isInColour(files[0]));
+    note([isGuess ? FILE_WORDS.takenForPage : '', pageNote, leftOut].filter(Boolean).join(' '), isGuess ? { label: FILE_WORDS.heightsInstead, act: () => openIn('heights', () => source.openFiles(files)) } : undefined);
   };
 
   /** The mode of the page before the files that are being opened, and how many openings are under way. @type {{ mode: Mode, openings: number }} */

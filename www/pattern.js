@@ -135,12 +135,12 @@ export async function drawingImage(api, drawing, frame, zoom = 1) {
     `<rect x="${x}" y="${drawing.height - y - high}" width="${wide}" height="${high}" fill="none" stroke="#ccd3d8" stroke-width="0"/>`).join('')}`).replace(/stroke-width="[^"]*"/g, `stroke-width="${width}"`)
     .replace(/stroke-dasharray="([^"]*)"/g, (_, dashes) => `stroke-dasharray="${dashes.split(' ').map((/** @type {string} */ dash) => 3 * Number(dash) * width).join(' ')}"`)
     .replace(/id="label"/, `$& paint-order="stroke" stroke="#fff" stroke-width="${3 * width}"`)
-    .replace(/class="([^"]*)" data-sheet="([^"]*)" dy="([^"]*)" font-size="([^"]*)"/g, (_, kind, sheet, dy, given) => {
-      // Titles stand above their sheets, and grow upwards: small above small ones, or they would lie on others.
+    .replace(/class="([^"]*)" data-sheet="([^"]*)" dy="([^"]*)" font-size="([^"]*)"(?=[^>]* y="([^"]*)")/g, (_, kind, sheet, dy, given, y) => {
+      // Titles stand above their sheets, and grow upwards: small above small ones, or they would lie on others or be cut off.
       const isTitle = kind === 'sheet';
       const [[left, bottom], [right, top]] = drawing.sheets[sheet - 1].bounds;
       const size = Math.max(given, Math.min(isTitle ? Math.min((right - left) / TEXTS_ACROSS, (top - bottom) / TITLES_HIGH) : room, TEXT_PIXELS * pixel));
-      return `dy="${isTitle ? dy : 0.35 * size}" font-size="${size}"`;
+      return `dy="${isTitle ? Math.max(dy, 0.75 * size - y) : 0.35 * size}" font-size="${size}"`;
     });
   const address = URL.createObjectURL(new Blob([svg], { type: 'image/svg+xml' }));
   try {

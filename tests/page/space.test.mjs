@@ -1,5 +1,7 @@
 /** Input and result in space. */
 import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { standsRather } from '../../www/surface/triangles.js';
 import { noisyBox } from './support/box.mjs';
 import { obj } from './support/files.mjs';
 import { parsed } from './support/numbers.mjs';
@@ -124,6 +126,15 @@ doorTest('a model that is opened first turns, too, once it can be drawn, and mea
   const first = (await look(page, '#space-canvas')).hash;
   while ((await look(page, '#space-canvas')).hash === first) await painted(page);
 }, { drawn: true, moving: true });
+
+test('a mesh stands on the side that has a foot, whatever axis its file means', () => {
+  // A lampshade along z, four legs along y, and a box, which stands on any side.
+  const circle = (/** @type {number} */ radius, /** @type {number} */ z) => Array.from({ length: 24 }, (_, i) => [radius * Math.cos(i * Math.PI / 12), radius * Math.sin(i * Math.PI / 12), z]);
+  const shade = [...circle(3, 0), ...circle(2, 4)].flat();
+  const legs = [...[[-2, 0, -3], [2, 0, -3], [-2, 0, 3], [2, 0, 3]], ...circle(3, 0).map(([x, y]) => [x, y + 5, 4])].flat();
+  const box = noisyBox(2, 0).points.flat();
+  assert.deepEqual([shade, legs, box].map((one) => [standsRather(one, 2, 1), standsRather(one, 1, 2)]), [[true, false], [false, true], [false, false]]);
+});
 
 doorTest('a model that lies on its back is stood up, and laid down again', async (page) => {
   await openWhole(page, 'box.obj', obj(noisyBox(4, 0)));

@@ -5,7 +5,7 @@ import { capitalised, percent, shortLambda } from '../format.js';
 import { lengthUnitOf, modelOf } from '../pattern.js';
 import { plainMessage } from '../error-messages.js';
 import { MESH_FIT_WORDS } from '../messages.js';
-import { boxOf, sidesOf } from '../surface/triangles.js';
+import { boxOf, sidesOf, standsRather } from '../surface/triangles.js';
 import { PAPER_LOOKS } from '../surface/scene.js';
 import { meshField } from '../surface/layer.js';
 import { curvature } from '../views/curvature.js';
@@ -181,7 +181,8 @@ export function meshFitPanel(session, meshFit, stage, heights) {
   session.on('input', ({ sampling, lattice }) => {
     const mesh = sampling?.mesh ?? null;
     if (mesh !== inputMesh) {
-      isTurned = false;
+      const [usual, other] = Y_UP_KINDS.includes(session.input?.kind ?? '') ? /** @type {const} */ ([1, 2]) : /** @type {const} */ ([2, 1]);
+      isTurned = mesh !== null && standsRather(mesh.positions, other, usual);
       if (stage.subject === whole) leave();
     }
     inputMesh = mesh && mesh.triangles.length > 0 ? mesh : null;

@@ -45,6 +45,20 @@ export function boxOf(places, dimensions = 3) {
   return { low: ends.map(({ low }) => low), high: ends.map(({ high }) => high) };
 }
 
+/** Height above the lowest vertex up to which a mesh stands on the ground, as a share of its height; and which shares of its box are no foot, and surely one. */
+const [FOOT_HEIGHT, MAX_NO_FOOT, MIN_FOOT] = [0.01, 0.25, 0.5];
+
+/** Whether a mesh stands on a foot along one axis, but not along another. @param {ArrayLike<number>} positions @param {0 | 1 | 2} one @param {0 | 1 | 2} other */
+export function standsRather(positions, one, other) {
+  const { low, high } = boxOf(positions);
+  const share = (/** @type {number} */ axis) => {
+    const top = low[axis] + FOOT_HEIGHT * (high[axis] - low[axis]);
+    const foot = sidesOf(Array.from(positions).filter((_, i) => positions[i - (i % 3) + axis] <= top));
+    return foot.reduce((product, side, k) => (k === axis ? product : product * side / (high[k] - low[k])), 1);
+  };
+  return share(one) > MIN_FOOT && share(other) < MAX_NO_FOOT;
+}
+
 /** The sides of the bounding box of places. @param {ArrayLike<number>} places @param {number} [dimensions] */
 export function sidesOf(places, dimensions) {
   const { low, high } = boxOf(places, dimensions);

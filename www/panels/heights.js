@@ -1,4 +1,5 @@
 /** Heights and their result on the stage: the surfaces in space, previews of the result, and the views of it. */
+import { closeDialogs } from '../dom.js';
 import { number, shortLambda } from '../format.js';
 import { heightAt, heightfieldBox, reliefMesh, reliefOf } from '../surface/relief.js';
 import { latticeField } from '../surface/layer.js';
@@ -87,6 +88,7 @@ export function heightsPanel(session, analyses) {
     stage.renew(heights);
   });
   session.on('cleared', () => {
+    closeDialogs();
     showResult(null);
     stage.begin(heights);
     stage.update(heights);

@@ -290,10 +290,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
   };
   /** Cuts a fold, or folds a cut; again, it is as before. @param {ReturnType<typeof edgeAt>} edge */
   const toggleEdge = (edge) => {
-    if (!edge) {
-      edgeNote.textContent = SHEET_WORDS.noEdge;
-      return;
-    }
+    if (!edge) return void (edgeNote.textContent = SHEET_WORDS.noEdge);
     clicked = edge;
     const [own, other] = edge.isFold ? /** @type {const} */ (['sheet-cut', 'sheet-join']) : /** @type {const} */ (['sheet-join', 'sheet-cut']);
     const isUndone = (parsePairs(fields.text(other)) ?? []).some((pair) => String(pair) === String(edge.pair));
@@ -312,8 +309,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     // The dialog may be closed by then.
     if (options.isConnected) offerAgain();
   });
-  let inputTimer = 0;
-  let zoom = 1;
+  let [inputTimer, zoom] = [0, 1];
   const legend = make('p', 'muted small');
   const enlarge = makeButton('', () => {
     zoom = zoom === 1 ? 3 : 1;

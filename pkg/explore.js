@@ -39,7 +39,7 @@ export async function explored(worker, trials, input, given) {
     return { surface, distance: deviation?.rms ?? NaN, seconds: (performance.now() - begun) / 1000 };
   };
   try {
-    return await tryPlans(await trials({ lambdas, smallest }), choice, fitAt, (surface, smallest) => worker.pattern(surface, { ...pattern, smallest }));
+    return await tryPlans(await trials({ lambdas, smallest }), choice, fitAt, (surface, smallest) => worker.pattern(surface, { faces: 0, ...pattern, smallest }));
   } finally {
     open.dispose();
   }
@@ -61,7 +61,7 @@ export async function exploredMesh(worker, trials, mesh, given) {
     const surface = lambda === own?.report.lambda ? own : await worker.fitMesh(mesh, { ...solver, lambda, signal });
     return { surface, distance: displacement(mesh, surface), seconds: surface.report.seconds.total };
   };
-  return tryPlans(all, choice, fitAt, (surface, smallest) => worker.pattern(surface, { ...pattern, smallest }));
+  return tryPlans(all, choice, fitAt, (surface, smallest) => worker.pattern(surface, { faces: 0, ...pattern, smallest }));
 }
 
 /**

@@ -416,6 +416,8 @@ export interface DrawingSummary {
   refolding?: number;
   /** Part of the surface that is on no sheet, if it is known; areas in square millimetres. */
   missing?: MissingSurface;
+  /** The flat faces that stand for the surface, if it was simplified. */
+  simplified?: SimplifiedSurface;
   /** Number of pages of A4 paper that the drawing takes. */
   a4: number;
   /** Number of pages of Letter paper that the drawing takes. */
@@ -1316,6 +1318,14 @@ export interface SheetDrawing {
   pages?: DrawingPages;
   /** Summary of the drawing: numbers of sheets, seams, folds and tabs, and their total lengths. */
   summary: DrawingSummary;
+}
+
+/** Flat faces that stand for a surface which is simplified. */
+export interface SimplifiedSurface {
+  /** Number of the faces. */
+  faces: number;
+  /** Root mean square distance of the surface's vertices from the faces, in millimetres. */
+  distance: number;
 }
 
 /**

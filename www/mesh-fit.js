@@ -116,6 +116,9 @@ export class MeshFit extends Events {
    */
   async pattern(surface, options, tell) {
     const mesh = this.mesh ?? surface;
+    const cut = (/** @type {Mesh} */ laidFlat, /** @type {import('../pkg/types.js').MeshPatternOptions} */ wanted) =>
+      this.#tasks.answer(laidFlat, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(wanted.printed ? laidFlat : geometryOf(laidFlat), { ...wanted, onProgress: tell }));
+    if (options.faces) return cut(mesh, options);
     const { kind, thickness } = await this.recognized(mesh);
     const isKnown = kind === 'noisyFaces' || ((kind === 'faces' || kind === 'bends') && this.lambda === 'auto');
     const laidFlat = isKnown ? mesh : surface;
@@ -125,8 +128,7 @@ export class MeshFit extends Events {
     const own = sheetThickness === undefined ? others : thickness === undefined ? { ...others, thickness: sheetThickness, innerRadius } : { ...others, blank: true };
     // Card shows what the model looks like.
     const printed = kind === 'faces' && laidFlat.textures !== undefined && options.thickness === undefined;
-    return this.#tasks.answer(laidFlat, `pattern ${JSON.stringify(options)}`, (worker) =>
-      worker.pattern(printed ? laidFlat : geometryOf(laidFlat), { ...own, ...smooth, printed, onProgress: tell }));
+    return cut(laidFlat, { ...own, ...smooth, printed });
   }
 }
 

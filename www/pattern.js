@@ -1,11 +1,10 @@
 /** Sheets to cut out of a surface: their size, options, figures and pictures. */
-import { hasCode } from './error-messages.js';
 import { count, number, numberAgainst, percent } from './format.js';
 
 /**
  * Options of a pattern, with lengths in millimetres; `side` is the longer side of the finished surface.
  * @typedef {{ side: number } & Pick<PatternOptions, 'tabs' | 'kerf' | 'thickness' | 'innerRadius' | 'kFactor' | 'assembly'>
- *   & Pick<import('../pkg/types.js').MeshPatternOptions, 'cut' | 'join' | 'stock'>} CutOptions
+ *   & Pick<import('../pkg/types.js').MeshPatternOptions, 'cut' | 'join' | 'stock' | 'faces'>} CutOptions
  */
 
 /** The options of a pattern without those of flat faces, which alone are cut anywhere. @template {Partial<CutOptions>} T @param {T} options */
@@ -14,8 +13,10 @@ export const withoutFaces = ({ cut, join, stock, ...others }) => others;
 /** What tells a model from others, to keep what was chosen for it. @param {Pick<Input, 'name' | 'width' | 'height' | 'sampling'>} input */
 export const modelOf = ({ name, width, height, sampling }) => `${name} ${sampling ? sampling.mesh.positions.length : width * height}`;
 
-/** Maximum strains of the sheets, tried one after the other: the second only if no cut satisfies the first. */
-const STRAIN_LIMITS = [0.01, 0.1];
+/** Number of flat faces that stand for a shape where it is not said (`benches/patterns.md`, Models of any shape). */
+const FEW_FACES = 500;
+/** Maximum strain of paper. */
+const MAX_PAPER_STRAIN = 0.01;
 /** Length mismatch of joints above which their sides are seen not to fit, as a share. */
 const MAX_FITTING_MISMATCH = 0.02;
 /** Longer side of a finished surface without a unit, or that cannot have its true size, in millimetres. */
@@ -57,42 +58,33 @@ export function lengthUnitOf({ unit, kind }) {
 }
 
 /**
- * Cuts a result into sheets, by the smallest of the strain limits that can be met.
+ * Cuts a result into sheets; one that is creased all over becomes flat faces at once, since cuts that lay it flat are looked for in vain for a minute.
  * @param {Analyses} analyses
  * @param {Result} result
  * @param {CutOptions} options
  * @param {Tell} tell
- * @returns {Promise<Drawing>}
  */
 export async function cutSheets(analyses, result, { side, ...given }, tell) {
-  const options = withoutFaces(given);
-  const scale = side / longerSide(result);
   const { count: patches } = await analyses.patchCount(result);
-  // A surface that is creased all over cannot meet the first limit, and trying takes a minute.
-  for (const maxStrain of Number.isFinite(patches) ? STRAIN_LIMITS : STRAIN_LIMITS.slice(-1)) {
-    try {
-      return await analyses.pattern(result, { scale, ...options, maxStrain }, tell);
-    } catch (error) {
-      if (maxStrain === STRAIN_LIMITS.at(-1) || !hasCode(error, 'NOT_FLAT')) throw error;
-    }
-  }
-  throw new Error('no cut lays it flat');
+  const { faces = Number.isFinite(patches) ? undefined : FEW_FACES } = given;
+  return analyses.pattern(result, { scale: side / longerSide(result), ...(faces === undefined ? withoutFaces(given) : { ...given, faces }) }, tell);
 }
 
 /** The number of sheets, folds, seams and slits in sentences, and what is missing. @param {Drawing} drawing */
 export const sheetsInWords = (drawing) => [countsInWords(drawing), ...faultsInWords(drawing)].join(' ');
 
 /** Says in one or two sentences how many sheets, folds and cuts a drawing has. @param {Drawing} drawing @param {boolean} [fitsPages] whether its sheets were cut so that each fits a page */
-export function countsInWords({ summary: { sheets, seams, folds, slits } }, fitsPages = false) {
+export function countsInWords({ summary: { sheets, seams, folds, slits, simplified } }, fitsPages = false) {
   const cut = seams === 0 ? '' : `, to be joined along ${seams === 1 ? 'one cut' : `${count(seams)} cuts`}`;
   const fold = folds === 0 ? '' : `, with ${folds === 1 ? 'one fold' : `${count(folds)} folds`}`;
   const slit = slits === 0 ? '' : ` ${slits === 1 ? 'One cut' : `${count(slits)} cuts`}, then ${sheets === 1 ? 'it lies' : 'they lie'} flat.`;
-  return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets${fitsPages ? ' that each fit a page' : ''}`}${fold}${cut}.${slit}`;
+  const faces = simplified === undefined ? '' : ` Built of ${count(simplified.faces)} flat faces, ${number(simplified.distance, 2)} mm from the shape.`;
+  return `${sheets === 1 ? 'One sheet' : `${count(sheets)} sheets${fitsPages ? ' that each fit a page' : ''}`}${fold}${cut}.${slit}${faces}`;
 }
 
 /** Says in sentences what is wrong with the sheets of a drawing, and what they lack. @param {Drawing} drawing */
 export function faultsInWords({ summary: { strain, mismatch, missing, untabbed, unlettered } }) {
-  const stretch = strain > STRAIN_LIMITS[0] ? `Paper has to give by ${percent(strain)}: use something that stretches, or a smaller λ.` : '';
+  const stretch = strain > MAX_PAPER_STRAIN ? `Paper has to give by ${percent(strain)}: use something that stretches, or a smaller λ.` : '';
   const misfit = mismatch > MAX_FITTING_MISMATCH ? `Joints will not fit: the two sides of one differ in length by ${percent(mismatch)}.` : '';
   const lost = (missing?.area ?? 0) + (missing?.stepArea ?? 0);
   const without = lost > 0 ? `${number(lost / 100, 2)} cm² of the surface, at ragged borders or steps, are on no sheet.` : '';

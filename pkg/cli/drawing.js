@@ -70,6 +70,7 @@ export function reportPattern(task, drawing, plan) {
     );
   }
   reportSlits(drawing.summary);
+  reportSimplified(task, drawing.summary);
   reportMissing(drawing.summary);
   const { untabbed, unlettered, strain } = drawing.summary;
   const { maxStrain = limits.maxStrain.default } = /** @type {import('../types.js').PatternOptions} */ (drawingOptions(task));
@@ -109,8 +110,15 @@ function reportSlits({ slits, slitLength, sheets, strain }) {
   if (slits === 0) return;
   toStderr(
     `developable: ${counted(sheets, 'sheet')}, strained by ${percent(strain, 2)} at most; that takes ${counted(slits, 'slit')} ` +
-      `besides the creases, ${slitLength.toFixed(0)} mm long\n`,
+      `besides the creases, ${slitLength.toFixed(0)} mm long (--faces 500 makes it of flat faces, without any)\n`,
   );
+}
+
+/** Says how many flat faces stand for the surface. @param {Task} task @param {import('../types.js').Drawing['summary']} summary */
+function reportSimplified({ input, faces }, { simplified }) {
+  if (simplified === undefined) return;
+  const why = faces === undefined ? 'no cut lays it flat within the limits; --faces decides how many, 0 none' : 'as --faces says';
+  say(`${simplified.faces} flat faces stand for ${input}, ${Number(simplified.distance.toPrecision(2))} mm from it (root mean square): ${why}`);
 }
 
 /** Warns of parts of the surface that are on no sheet. @param {import('../types.js').Drawing['summary']} summary */

@@ -25,7 +25,7 @@ export async function whole(task, signal) {
   await checkPlaces(...task.written);
   const mesh = await readMesh(task);
   if (task.explore || task.sheets !== undefined) return planned(task, mesh, signal);
-  const exact = task.command === 'pattern' && await isExact(task, mesh);
+  const exact = task.command === 'pattern' && ((task.faces ?? 0) > 0 || await isExact(task, mesh));
   const surface = task.asIs || exact ? undefined : await fitted(task, mesh, signal);
   const files = await made[task.command](task, surface ?? mesh, mesh, exact || surface?.report.stopReason === 'noNoise');
   await writeWhole(files, signal);

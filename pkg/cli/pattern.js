@@ -6,7 +6,7 @@ import { checkPlaces, writeWhole } from './files.js';
 import { flattened, spacing } from './flattened.js';
 import { readForFit } from './inputs.js';
 import { Problem, status } from './problem.js';
-import { TABLE, isMesh, optionsFrom } from './task.js';
+import { TABLE, optionsFrom } from './task.js';
 import { during, percent, statusLine } from './terminal.js';
 import { json } from './texts.js';
 
@@ -38,19 +38,9 @@ async function drawnOnce(task, signal) {
     const { surface, options } = await flattened(task, signal);
     const refold = task.report !== undefined;
     const draw = (/** @type {object} */ watched) => developable.pattern(surface, { ...options, ...drawingOptions(task), refold, ...watched });
-    return { drawing: await during('cutting it into sheets', draw).catch((problem) => { throw withRemedy(problem, task.input); }) };
+    return { drawing: await during('cutting it into sheets', draw) };
   }
   return chosenOf(task, await explored(task, signal));
-}
-
-/**
- * The problem of a pattern, with what else can be done about a mesh: only the view of it from one side was to be laid flat.
- * @param {unknown} problem
- * @param {string} input
- */
-function withRemedy(problem, input) {
-  if (!(problem instanceof developable.DevelopableError) || problem.code !== 'NOT_FLAT' || !isMesh(input)) return problem;
-  return new Problem(status.input, `${problem.message}; or give --surface: it lays the whole mesh flat, and not a view of it from one side`);
 }
 
 /**

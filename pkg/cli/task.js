@@ -19,7 +19,7 @@ import { streams } from './terminal.js';
  *   'photoCamera' | 'mtl' | 'map' | 'assembly' | 'edges', string>> &
  *   Partial<Record<'overwrite' | 'force' | 'paper' | 'noNormalize' | 'surface' | 'ray' | 'asIs' | 'explore' | 'trim' | 'deskew' | 'ink' |
  *   'plain' | 'quiet' | 'blank' | 'printed', boolean>> &
- *   Partial<Record<'jobs' | 'threads' | 'spacing' | 'resolution' | 'pixelSize' | 'heightScale' | 'free' | 'threshold' | 'sheets' | 'size' |
+ *   Partial<Record<'jobs' | 'threads' | 'spacing' | 'resolution' | 'pixelSize' | 'heightScale' | 'free' | 'threshold' | 'sheets' | 'size' | 'faces' |
  *   'smallest' | 'dots' | 'quality' | 'focalLength' | 'fieldOfView', number>> & {
  *   lattice?: 'square' | 'hex', unit?: import('../types.js').ReadMeshOptions['unit'], noData?: number | 'none',
  *   view?: import('../types.js').SampleMeshOptions['view'], intrinsics?: Omit<CameraTask, 'ray'>, turn?: CameraTask['turn'],

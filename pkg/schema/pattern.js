@@ -1,5 +1,5 @@
 /** Options of patterns and their drawings. Each comment is what the types say; the default is added there. */
-import { choice, either, flag, number, numbers, patchPairs, positive, text } from './kinds.js';
+import { choice, either, flag, number, numbers, patchPairs, positive, text, whole } from './kinds.js';
 import { meshUnrolling, patchesMesh, unroll } from './shape.js';
 
 /** @typedef {import('./kinds.js').Options} Options */
@@ -47,6 +47,20 @@ export const drawing = {
     flag: { section: 'shape', value: 'MM', help: 'millimetres of the pattern for each unit of length (default: true size; 1 where the unit is not known)' },
   },
   ...limits,
+  /**
+   * Maximum number of flat faces that stand for the surface, whatever its shape: it is simplified to so many triangles. More are left
+   * only where fewer would not leave its connections as they are; 0: it is never simplified. Default: 500 where no cut lays the
+   * surface flat within the limits, which `summary.simplified` tells.
+   */
+  faces: {
+    kind: whole,
+    flag: {
+      section: 'shape',
+      value: 'N',
+      help: 'maximum number of flat faces that stand for a surface of any shape, which makes it a low-poly model; 0 for none (default: ' +
+        '500 where no cut lays the surface flat)',
+    },
+  },
   /** Depth of tabs along cut creases, in millimetres; short ones where these are curved. 0 for none. */
   tabs: {
     kind: number,

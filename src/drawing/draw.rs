@@ -14,7 +14,7 @@ use super::pack::{Place, pack_rows};
 use super::pages::{Arranged, MAX_PAGES, Pages, Stock, arrange_on_pages, page_count};
 use super::sheet::DrawnSheet;
 use super::tabs::{SeamSides, swapped_tabs};
-use super::totals::{Totals, summary};
+use super::totals::{Simplified, Totals, summary};
 use crate::error::{Error, Result};
 use crate::pattern::{Missing, Sheet};
 
@@ -186,6 +186,13 @@ impl Drawing {
         missing.area *= scale * scale;
         missing.step_area *= scale * scale;
         self.summary.missing = Some(missing);
+        self
+    }
+
+    /// Adds to the drawing's summary how many flat faces stand for the surface
+    /// ([`simplified_faces`](crate::pattern::simplified_faces)), and how far they are from it, in millimetres.
+    pub fn simplified(mut self, faces: usize, distance: f64) -> Self {
+        self.summary.simplified = Some(Simplified { faces, distance });
         self
     }
 

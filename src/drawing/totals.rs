@@ -11,6 +11,21 @@ use crate::pattern::{Direction, Junction, Missing, Sheet};
 /// sheets.
 const MIN_COMPARED_JOINT_SHARE: f64 = 0.1;
 
+/// Flat faces that stand for a surface which is simplified.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename = "SimplifiedSurface")
+)]
+#[non_exhaustive]
+pub struct Simplified {
+    /// Number of the faces.
+    pub faces: usize,
+    /// Root mean square distance of the surface's vertices from the faces, in millimetres.
+    pub distance: f64,
+}
+
 /// Summary of a drawing: numbers of sheets, seams, folds, tabs and pages; total lengths in millimetres; strain and
 /// gaps.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,6 +89,9 @@ pub struct Totals {
     /// Part of the surface that is on no sheet, if it is known ([`Drawing::missing`](super::Drawing::missing));
     /// areas in square millimetres.
     pub missing: Option<Missing>,
+    /// The flat faces that stand for the surface, if it was simplified ([`Drawing::simplified`](super::Drawing::simplified)).
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub simplified: Option<Simplified>,
     /// Number of pages of A4 paper that the drawing takes.
     pub a4: usize,
     /// Number of pages of Letter paper that the drawing takes.
@@ -217,6 +235,7 @@ pub(super) fn summary(
             .map(|refolding| scale * refolding.rms)
             .reduce(f64::max),
         missing: None,
+        simplified: None,
         a4: 0,
         letter: 0,
     }

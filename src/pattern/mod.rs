@@ -35,9 +35,10 @@ mod smooth_creases;
 mod surface;
 mod surface_mesh;
 
+pub use crate::scene::exactness::MAX_FEW_FACES;
 pub use exact::{
     FoundFaces, MeshKind, NetOptions, SheetMetal, noisy_faces, pattern_exact, rolled_faces,
-    sheet_metal,
+    sheet_metal, simplified_faces,
 };
 pub use faces::Faces;
 pub use options::PatternOptions;

@@ -16,9 +16,9 @@ const MIN_ALIKE_SHARE: f64 = 0.25;
 /// Minimum median angle, in degrees, between the faces of a low-poly model; a ball of 500 triangles has 9.
 const MIN_LOW_POLY_ANGLE: f64 = 8.0;
 
-/// Maximum number of faces of a model that is built face by face, however little these fold: a ball of as many has
-/// [`MIN_LOW_POLY_ANGLE`], other surfaces less.
-const MAX_FEW_FACES: usize = 500;
+/// Maximum number of faces of a model that is built face by face, however little these fold: a ball of as many folds by 9
+/// degrees at each edge, other surfaces by less.
+pub const MAX_FEW_FACES: usize = 500;
 
 /// Minimum share of the area of a mesh without noise that lies in planes of several triangles.
 const MIN_PLANAR_SHARE: f64 = 0.5;

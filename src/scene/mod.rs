@@ -1,6 +1,7 @@
 //! Meshes, point clouds, depth images and cameras, and the views in which these become heightfields.
 
 pub(crate) mod camera;
+pub(crate) mod decimation;
 mod depth;
 pub(crate) mod exactness;
 pub(crate) mod facets;

@@ -2,8 +2,9 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 // @ts-expect-error three.js comes without types.
-import { CylinderGeometry, DodecahedronGeometry, ExtrudeGeometry, Path, Shape } from 'three';
+import { CylinderGeometry, DodecahedronGeometry, ExtrudeGeometry, Path, Shape, SphereGeometry } from 'three';
 import * as direct from '../../pkg/direct.js';
+import { error } from './support/error.mjs';
 
 await direct.init();
 await direct.load('patterns');
@@ -72,4 +73,21 @@ test('a channel is bent from the blank that its bends allow', () => {
   const allowance = (Math.PI / 2) * (inner + 0.44 * thickness);
   near(summary.area, length * (2 * (height - outer) + width - 2 * outer + 2 * allowance), 1e-5);
   assert.deepEqual(sheets.flatMap(({ folds }) => folds.map((fold) => Math.round(fold.angle))), [90, 90]);
+});
+
+test('a shape that no cut lays flat is built of flat faces, as many as are wanted', () => {
+  const ball = meshOf(new SphereGeometry(50, 32, 24));
+  const options = { scale: 1, exact: false, maxStrain: 1e-6 };
+  assert.throws(() => direct.pattern(ball, { ...options, faces: 0 }), error('NOT_FLAT', /strain/));
+  for (const [faces, given] of /** @type {const} */ ([[500, options], [60, { scale: 1, faces: 60 }]])) {
+    const { summary } = direct.pattern(ball, given);
+    const { faces: found, distance } = /** @type {import('../../pkg/types.js').SimplifiedSurface} */ (summary.simplified);
+    assert.ok(found > 0.9 * faces && found <= faces, `${found}`);
+    // The area of a ball, and how far equilateral triangles with so many corners on it are below it in the middle.
+    near(summary.area, 4 * Math.PI * 50 ** 2, 8 / faces);
+    const radius = 50 * Math.sqrt((16 * Math.PI) / (3 * Math.sqrt(3) * faces));
+    assert.ok(distance > 0 && distance < 50 - Math.sqrt(50 ** 2 - radius ** 2), `${distance}`);
+    assert.equal(summary.strain, 0);
+  }
+  assert.throws(() => direct.pattern(ball, { faces: 1.5 }), error('OPTION', /faces.*whole number/));
 });

@@ -138,7 +138,13 @@ test('no figure or message is not a number where a mesh is all in one place, on 
   }
 });
 
-test('where a view of a mesh cannot be laid flat, the command names the flag for the whole mesh', async () => {
+test('where no cut lays a surface flat, the command says that flat faces stand for it, or why there are none', async () => {
   await writeFile(join(folder, 'dome.obj'), direct.writeObj(lattice(12, 12, (x, y) => -0.08 * ((x - 5.5) ** 2 + (y + 4.8) ** 2))));
-  await refuses(folder, [['pattern dome.obj -o o.svg --max-strain 1e-7 --resolution 20', /cannot be laid flat: .*; or give --surface/, 3]]);
+  const dome = 'pattern dome.obj -o o.svg --max-strain 1e-7 --resolution 20';
+  await refuses(folder, [[`${dome} --faces 0`, /cannot be laid flat: its outline/, 3]]);
+  const said = /^developable: (\d+) flat faces stand for dome\.obj, 0\.\d+ mm from it \(root mean square\): (.*)$/m;
+  const [, many, why] = said.exec((await run(folder, dome)).stderr) ?? [];
+  assert.ok(Number(many) > 400 && Number(many) <= 500 && why.includes('no cut lays it flat'), `${many}: ${why}`);
+  const [, few, wanted] = said.exec((await run(folder, `${dome} --faces 40`)).stderr) ?? [];
+  assert.ok(Number(few) > 30 && Number(few) <= 40 && wanted === 'as --faces says', `${few}: ${wanted}`);
 });

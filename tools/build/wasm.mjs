@@ -30,7 +30,7 @@ const files = [
   { name: 'meshes', limit: 345_000 },
   { name: 'fitmesh', limit: 231_000 },
   { name: 'unroll', limit: 365_000 },
-  { name: 'patterns', limit: 700_000 },
+  { name: 'patterns', limit: 710_000 },
 ];
 
 /**

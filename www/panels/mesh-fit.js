@@ -99,7 +99,7 @@ export function meshFitPanel(session, meshFit, stage, heights) {
         unit: lengthUnitOf({ ...session.input, kind: 'mesh', unit: surface.unit ?? undefined }),
         cut: ({ side: length, ...options }, tell) => meshFit.pattern(surface, { scale: length / longest, ...options }, tell),
         metalThickness: async () => (await meshFit.recognized(meshFit.mesh ?? surface)).thickness,
-        canFoldElsewhere: ({ summary }) => summary.strain === 0,
+        isMesh: true,
         stop: () => whole.stop(),
         lambda: surface.report.lambda,
         cancelSolve: () => meshFit.cancel(),

@@ -33,7 +33,7 @@ export function offerResultSheets(session, result, analyses, again) {
     unit: lengthUnitOf(result.input),
     cut: (options, tell) => cutSheets(analyses, result, options, tell),
     metalThickness: async () => undefined,
-    canFoldElsewhere: () => false,
+    isMesh: false,
     stop: () => analyses.stop(),
     lambda: result.surface.report.lambda,
     cancelSolve: () => session.cancel(),

@@ -32,6 +32,7 @@ const FIELDS = {
   'sheet-radius': { label: 'Inner radius, mm', range: between(0, 100), optional: true, placeholder: 'as the thickness' },
   'sheet-k': { label: 'K-factor (neutral line)', range: between(0.1, 0.9) },
   'sheet-kerf': { label: 'Kerf of a laser or saw, mm', range: between(0, 10) },
+  'sheet-faces': { label: 'Flat faces at most', range: between(4, 100_000), optional: true, placeholder: 'as many as it has' },
   'sheet-cut': { label: 'Cut between pieces', placeholder: SHEET_WORDS.pairs, wrong: faultOfPairs },
   'sheet-join': { label: 'Fold between pieces', placeholder: SHEET_WORDS.pairs, wrong: faultOfPairs },
 };
@@ -44,7 +45,7 @@ const lastOptions = {
 /** What was chosen last for the model whose sheets were shown last. @type {{ model: string, choice: Partial<Record<FieldName, string | boolean>> }} */
 let lastModel = kept('sheets of the model', { model: '', choice: {} });
 /** Fields whose choice belongs to the model. @type {readonly FieldName[]} */
-const OF_MODEL = ['sheet-unit', 'sheet-side', 'sheet-cut', 'sheet-join'];
+const OF_MODEL = ['sheet-unit', 'sheet-side', 'sheet-faces', 'sheet-cut', 'sheet-join'];
 /** Length of a piece below which it can hardly be held, folded and glued, in millimetres. */
 const MIN_HANDY_PIECE_MM = 10;
 /** Number of joints above which a model takes more than an evening. */
@@ -65,7 +66,7 @@ const MAX_EXPECTED_PAGES = 12;
  * @property {LengthUnit | 'none' | 'unknown'} unit unit of the input; `none` for an example, which has any size
  * @property {(options: CutOptions, onProgress: (progress: TaskProgress) => void) => Promise<Drawing>} cut computes the pattern
  * @property {() => Promise<number | undefined>} metalThickness thickness of a solid of sheet metal, in the input's unit
- * @property {(drawing: Drawing) => boolean} canFoldElsewhere whether other edges of a drawing may be cut and joined: of flat faces, of which nothing is stretched
+ * @property {boolean} isMesh whether it is a whole mesh, whose own faces may be flat
  * @property {() => void} stop cancels the pattern that is being computed
  * @property {number} lambda of the surface
  * @property {() => void} cancelSolve cancels the solve of another λ
@@ -75,7 +76,7 @@ const MAX_EXPECTED_PAGES = 12;
  */
 
 /** Opens the dialog. @param {Api} api @param {SheetSource} source */
-export function offerSheets(api, { stem, model, note = '', length, unit, up, cut, metalThickness, canFoldElsewhere, stop, lambda, cancelSolve, isFitted, solved, again: offerAgain }) {
+export function offerSheets(api, { stem, model, note = '', length, unit, up, cut, metalThickness, isMesh, stop, lambda, cancelSolve, isFitted, solved, again: offerAgain }) {
   const suggested = suggestedSide(length, unit);
   const fields = fieldsOf(FIELDS);
   // A size that is not the true one goes by no unit.
@@ -106,6 +107,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
   const cutOptions = () => ({
     ...(fields.text('sheet-cut').trim() && { cut: parsePairs(fields.text('sheet-cut')) ?? [] }),
     ...(fields.text('sheet-join').trim() && { join: parsePairs(fields.text('sheet-join')) ?? [] }),
+    ...(fields.text('sheet-faces') !== '' && { faces: fields.number('sheet-faces') }),
     ...(!isMetal() && fields.isChecked('sheet-fitting') && { stock: paper() || undefined }),
     side: side(),
     kerf: fields.number('sheet-kerf'),
@@ -227,9 +229,13 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
       const image = await drawingImage(api, await requested, preview, zoom);
       if (requested !== drawing) return;
       const finished = await requested;
+      if (finished.summary.simplified && fields.text('sheet-faces') === '') {
+        fields.set('sheet-faces', finished.summary.simplified.faces);
+        return void draw();
+      }
       showSize(finished);
       // Only flat faces can be cut apart anywhere: nothing of them is stretched.
-      const isExact = canFoldElsewhere(finished);
+      const isExact = finished.summary.simplified !== undefined || (isMesh && finished.summary.strain === 0);
       edges.hidden = !isExact || finished.summary.folds + finished.summary.seams === 0;
       fields.show(isExact && !isMetal() && paper() !== '', 'sheet-fitting');
       pieces = Math.max(...finished.sheets.flatMap((sheet) => sheet.patches)) + 1;
@@ -327,6 +333,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
     ...(note ? [make('p', 'small', note)] : []),
     again,
     ...(isFitted ? fields.nodes('sheet-detail') : []),
+    ...fields.nodes('sheet-faces'),
     ...fields.nodes('sheet-unit', 'sheet-side', 'sheet-paper', 'sheet-fitting', 'sheet-material', 'sheet-tabs', 'sheet-tab-depth'),
     metalNote,
     ...fields.nodes('sheet-thickness', 'sheet-radius', 'sheet-k', 'sheet-kerf'),

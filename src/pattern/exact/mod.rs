@@ -19,6 +19,7 @@ mod straight;
 
 use super::sheets::Pattern;
 use crate::error::{Error, Result};
+use crate::scene::decimation::decimate;
 use crate::scene::mesh::Mesh;
 use crate::scene::polyhedron::Polyhedron;
 pub use metal::{SheetMetal, sheet_metal};
@@ -72,6 +73,23 @@ impl FoundFaces {
     pub fn pattern(&self, options: &NetOptions) -> Result<Pattern> {
         pattern_of(&self.solid, options)
     }
+}
+
+/// Simplifies a mesh to at most so many flat faces, by contracting edges (Garland and Heckbert 1997), whether or not it has noise:
+/// any shape can be built so. The faces are more only where fewer would not leave the surface's connections as they are, as those of a
+/// mesh of many parts. Costs `O(triangles · log(triangles))`.
+///
+/// # Errors
+/// [`Error::Unsupported`](crate::Error::Unsupported) if the triangles have no area.
+pub fn simplified_faces(mesh: &Mesh, max_faces: usize) -> Result<FoundFaces> {
+    let found = decimate(&Polyhedron::new(mesh)?, max_faces);
+    let places = found.places.iter().map(|place| (*place).into()).collect();
+    let solid = Polyhedron::new(&Mesh::new(places, found.triangles)?)?;
+    Ok(FoundFaces {
+        count: solid.areas.len(),
+        noise: found.distance,
+        solid,
+    })
 }
 
 fn pattern_of(solid: &Polyhedron, options: &NetOptions) -> Result<Pattern> {

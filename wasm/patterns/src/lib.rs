@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
-use developable::Mesh;
 use developable::assembly::Assembly;
 use developable::drawing::{Bending, Drawing, DrawingOptions, Stock};
 use developable::explore::Trials;
@@ -14,11 +13,12 @@ use developable::files::assembly::{write_animation, write_assembly_svg};
 use developable::files::drawings::{PdfOptions, TextureFile, write_dxf, write_pdf, write_svg};
 use developable::patches::{Crease, MeshPatches, Patch, PatchOptions, Patches};
 use developable::pattern::{
-    MeshKind, Missing, NetOptions, Pattern, PatternOptions, Sheet, pattern, pattern_exact,
-    pattern_mesh, sheet_metal,
+    MAX_FEW_FACES, MeshKind, Missing, NetOptions, Pattern, PatternOptions, Sheet, pattern,
+    pattern_exact, pattern_mesh, sheet_metal, simplified_faces,
 };
 use developable::progress;
 use developable::unroll::UnrollOptions;
+use developable::{Frame, Mesh, Triangulation};
 use developable_wasm::mesh::MeshInput;
 use developable_wasm::options::{OptionReader, read};
 use developable_wasm::scene::{Scene, check_spacing, is_image};
@@ -49,6 +49,8 @@ struct PatternInput {
     /// Pairs of patches whose common edges are cut, and are folds, by their numbers on drawings, which begin with 1.
     cut: Vec<[u32; 2]>,
     join: Vec<[u32; 2]>,
+    /// Maximum number of flat faces that stand for the surface; 0 for none.
+    faces: Option<usize>,
     /// Whether the blank of a solid of sheet metal is wanted.
     blank: bool,
 }
@@ -148,7 +150,41 @@ impl Wanted {
     /// Draws sheets of a pattern; returns JavaScript's `Drawing` object, with the assembly if it is wanted.
     fn draw(&self, sheets: &[Sheet], missing: &Missing) -> Result<JsValue> {
         let drawn = Drawing::new(sheets, &self.drawing)?;
-        let drawn = drawn.missing(missing, self.drawing.scale);
+        self.put_on_stock(sheets, drawn.missing(missing, self.drawing.scale))
+    }
+
+    /// Draws a pattern, likewise, or, where no cut lays the surface flat, flat faces that stand for it.
+    fn draw_found(
+        &self,
+        found: Result<Pattern>,
+        mesh: impl FnOnce() -> Result<Mesh>,
+    ) -> Result<JsValue> {
+        match found {
+            Err(Failure {
+                code: "NOT_FLAT", ..
+            }) if self.own.faces.is_none() => self.draw_simplified(&mesh()?, MAX_FEW_FACES),
+            found => {
+                let found = found?;
+                self.draw(&found.sheets, &found.missing)
+            }
+        }
+    }
+
+    /// Number of flat faces that are to stand for the surface.
+    fn few_faces(&self) -> Option<usize> {
+        self.own.faces.filter(|faces| *faces > 0)
+    }
+
+    /// Draws flat faces that stand for a surface, likewise.
+    fn draw_simplified(&self, mesh: &Mesh, max_faces: usize) -> Result<JsValue> {
+        let faces = simplified_faces(mesh, max_faces)?;
+        let found = faces.pattern(&self.net_options())?;
+        let drawn = Drawing::new(&found.sheets, &self.drawing)?;
+        let drawn = drawn.simplified(faces.count, faces.noise * self.drawing.scale);
+        self.put_on_stock(&found.sheets, drawn)
+    }
+
+    fn put_on_stock(&self, sheets: &[Sheet], drawn: Drawing) -> Result<JsValue> {
         let drawn = match self.own.stock {
             Some(stock) => drawn.onto(stock)?,
             None => drawn,
@@ -179,9 +215,13 @@ pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted = Wanted::of(&field, &options)?;
     check_spacing(wanted.own.spacing, is_image(&field)?)?;
     let surface = Scene::new(field, wanted.own.spacing)?.surface;
+    let mesh = || Ok(Triangulation::new(&surface, &Frame::default())?.into_mesh());
+    if let Some(faces) = wanted.few_faces() {
+        return wanted.draw_simplified(&mesh()?, faces);
+    }
     let patches = progress::part(0.1, || Patches::new(&surface, &wanted.patches))?;
-    let found = progress::part(0.95, || pattern(&surface, &patches, &wanted.sheets))?;
-    wanted.draw(&found.sheets, &found.missing)
+    let found = progress::part(0.95, || pattern(&surface, &patches, &wanted.sheets));
+    wanted.draw_found(found.map_err(Failure::from), mesh)
 }
 
 /// Values of λ and of the minimum patch size that an exploration tries, read from JavaScript; or only the λ that suits
@@ -230,6 +270,9 @@ pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> 
         wanted.set_thickness(metal.thickness * wanted.drawing.scale);
         mesh = metal.skin;
     }
+    if let Some(faces) = wanted.few_faces() {
+        return wanted.draw_simplified(&mesh, faces);
+    }
     let kind = match wanted.own.exact {
         Some(true) => MeshKind::Faces,
         Some(false) => MeshKind::Noisy,
@@ -242,10 +285,13 @@ pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> 
         }
         _ if !(wanted.own.cut.is_empty() && wanted.own.join.is_empty()) => {
             return Err(Failure::option(
-                "options `cut` and `join` are for meshes with flat faces",
+                "options `cut` and `join` are for meshes with flat faces: `faces` makes any mesh one",
             ));
         }
-        _ => sheets_of(&mesh, &wanted)?.1,
+        _ => {
+            let found = sheets_of(&mesh, &wanted).map(|(_, found)| found);
+            return wanted.draw_found(found, || Ok(mesh));
+        }
     };
     wanted.draw(&found.sheets, &found.missing)
 }

@@ -14,10 +14,11 @@ impl WarpMap {
     ///
     /// # Errors
     /// [`Error::TooLarge`](crate::Error::TooLarge), [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub(super) fn with_continued_sheet(self, margin: usize) -> Result<Self> {
+    pub(super) fn with_continued_sheet(mut self, margin: usize) -> Result<Self> {
         let [width, height] = [self.width(), self.height()].map(|n| n + 2 * margin);
-        let mut map = self.padded(margin)?;
-        let nearest = nearest_sheet_pixels(&map)?;
+        checked_cells("flat image", height, width)?;
+        self.frame([-(margin as isize); 2], [width, height])?;
+        let nearest = nearest_sheet_pixels(&self)?;
         // One fit for all pixels that are extrapolated from the same cell.
         let cell = margin.div_ceil(2).max(1);
         let across = width.div_ceil(cell);
@@ -38,35 +39,18 @@ impl WarpMap {
             let [col, row] = edge.map(|v| v as usize / cell);
             let fit = fits[row * across + col].get_or_insert_with(|| {
                 let middle = [col, row].map(|k| (k * cell) as f64 + 0.5 * cell as f64);
-                LocalQuadratic::new(&map, middle, 4.0 * cell as f64)
+                LocalQuadratic::new(&self, middle, 4.0 * cell as f64)
             });
             let Some(fit) = fit else { continue };
             let (there, at_edge) = (fit.at(here), fit.at(edge));
-            let place = map.places()[*from as usize];
+            let place = self.places()[*from as usize];
             let place = [0, 1].map(|k| lanes::single(f64::from(place[k]) + there[k] - at_edge[k]));
             found.push((i, place));
         }
         for (i, place) in found {
-            map.places_mut()[i] = place;
+            self.places_mut()[i] = place;
         }
-        Ok(map)
-    }
-
-    /// Adds empty margins of `margin` pixels on each side of the flat image.
-    fn padded(self, margin: usize) -> Result<Self> {
-        let [width, height] = [self.width(), self.height()].map(|n| n + 2 * margin);
-        checked_cells("flat image", height, width)?;
-        let mut places = try_filled("flat image", width * height, [f32::NAN; 2])?;
-        for (row, line) in self.places().chunks_exact(self.width()).enumerate() {
-            let start = (row + margin) * width + margin;
-            places[start..start + line.len()].copy_from_slice(line);
-        }
-        let shift = margin as f64 / self.resolution();
-        let corner = [self.corner()[0] - shift, self.corner()[1] + shift];
-        Ok(
-            WarpMap::from_places([width, height], self.resolution(), corner, places)
-                .with_overlap_of(&self),
-        )
+        Ok(self)
     }
 }
 

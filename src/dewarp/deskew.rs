@@ -1,7 +1,8 @@
 //! Rotation of a flat image, so that the sheet stands upright in it.
 
-use super::WarpMap;
-use crate::error::{Result, checked_cells, try_filled};
+use super::warp_map::empty_places;
+use super::{PixelGrid, WarpMap};
+use crate::error::Result;
 use crate::math::lanes;
 use crate::math::planar::{LeastBox, bounds};
 
@@ -24,8 +25,13 @@ impl WarpMap {
         let [[left, bottom], [right, top]] = bounds(corners.iter());
         let [width, height] =
             [right - left, top - bottom].map(|side| side.ceil().max(1.0) as usize);
-        checked_cells("flat image", height, width)?;
-        let mut places = try_filled("flat image", width * height, [f32::NAN; 2])?;
+        let grid = PixelGrid {
+            width,
+            height,
+            resolution,
+            corner: [left / resolution, top / resolution],
+        };
+        let mut places = empty_places(&grid)?;
         for (row, line) in places.chunks_exact_mut(width).enumerate() {
             for (col, place) in line.iter_mut().enumerate() {
                 let [x, y] = [left + col as f64 + 0.5, top - row as f64 - 0.5];
@@ -36,8 +42,7 @@ impl WarpMap {
                 }
             }
         }
-        let corner = [left / resolution, top / resolution];
-        Ok(WarpMap::from_places([width, height], resolution, corner, places).with_overlap_of(self))
+        Ok(WarpMap::from_places(grid, places).with_overlap_of(self))
     }
 
     /// Angle, in radians, by which the sheet has to be rotated for the smallest rectangle around it to be upright.

@@ -1,6 +1,7 @@
 //! Rasterisation of a sheet's triangles into the flat image.
 
 use super::charts::ChartSeams;
+use super::pixel_grid::PixelGrid;
 use super::registration::PhotoProjection;
 use crate::error::{Result, try_filled};
 use crate::math::index::NO_INDEX;
@@ -15,16 +16,6 @@ struct RasterCorner {
     /// Attributes that are interpolated linearly over the triangle; [`PhotoProjection::project`] makes the place in the
     /// photo of them.
     from: [f64; 3],
-}
-
-/// Frame of the flat image: its size in pixels and its position on the sheet.
-pub(super) struct Canvas {
-    /// Width and height of the flat image, in pixels.
-    pub size: [usize; 2],
-    /// Pixels of the flat image per unit of length.
-    pub resolution: f64,
-    /// Position of the flat image's upper left corner on the sheet, in the surface's units.
-    pub corner: [f64; 2],
 }
 
 /// Pixels of the flat image, row by row.
@@ -50,11 +41,11 @@ struct Pixels<'a> {
 pub(super) fn rasterise(
     sheet: &Unrolling,
     projection: &PhotoProjection,
-    canvas: &Canvas,
+    grid: &PixelGrid,
     places: &mut [[f32; 2]],
 ) -> Result<f64> {
     let mut pixels = Pixels {
-        size: canvas.size,
+        size: [grid.width, grid.height],
         owners: try_filled("flat image", places.len(), NO_INDEX)?,
         places,
         covered: 0,
@@ -84,8 +75,8 @@ pub(super) fn rasterise(
             RasterCorner {
                 // Pixels' centres are at whole numbers, rows count downwards.
                 at: [
-                    (x - canvas.corner[0]) * canvas.resolution - 0.5,
-                    (canvas.corner[1] - y) * canvas.resolution - 0.5,
+                    (x - grid.corner[0]) * grid.resolution - 0.5,
+                    (grid.corner[1] - y) * grid.resolution - 0.5,
                 ],
                 from: projection.attributes(v as usize, mesh.positions()[v as usize]),
             }
@@ -93,7 +84,7 @@ pub(super) fn rasterise(
         match seams.as_ref().filter(|seams| seams.crosses(triangle)) {
             None => pixels.cover(triangle as u32, &corners, projection, overlap),
             Some(seams) => {
-                for piece in nearest_pieces(seams, canvas, &triangles[triangle], &corners) {
+                for piece in nearest_pieces(seams, grid, &triangles[triangle], &corners) {
                     pixels.cover(triangle as u32, &piece, projection, overlap);
                 }
             }
@@ -106,7 +97,7 @@ pub(super) fn rasterise(
 /// nearest to one corner, and mapped by that corner's chart.
 fn nearest_pieces(
     seams: &ChartSeams,
-    canvas: &Canvas,
+    grid: &PixelGrid,
     vertices: &[u32; 3],
     corners: &[RasterCorner; 3],
 ) -> [[RasterCorner; 3]; 6] {
@@ -119,7 +110,7 @@ fn nearest_pieces(
         let extrapolated = |at: [f64; 2]| {
             // Rows count downwards.
             let way = [at[0] - corner.at[0], corner.at[1] - at[1]];
-            let way = way.map(|pixels| pixels / canvas.resolution);
+            let way = way.map(|pixels| pixels / grid.resolution);
             RasterCorner {
                 at,
                 from: seams.extrapolate(vertices[own], corner.from, way),

@@ -5,7 +5,8 @@ use std::ops::Range;
 use super::largest_rectangle::largest_rectangle;
 use super::options::DewarpOptions;
 use super::photo::Photo;
-use super::raster::{Canvas, rasterise};
+use super::pixel_grid::PixelGrid;
+use super::raster::rasterise;
 use super::registration::{PhotoProjection, Registration};
 use super::verdict::{MAX_FLAT_STRAIN, Verdict};
 use crate::error::{Error, Result, checked_cells, positive, try_filled};
@@ -15,10 +16,7 @@ use crate::unroll::{UnrollReport, Unrolling};
 /// A warp map: for each pixel of a flat image its place in the photo.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WarpMap {
-    width: usize,
-    height: usize,
-    resolution: f64,
-    corner: [f64; 2],
+    grid: PixelGrid,
     places: Vec<[f32; 2]>,
     loss: f64,
     /// Whether the loss is that of a page between four corners.
@@ -68,40 +66,30 @@ impl WarpMap {
         let [min, max] = bounds(sheet.places().iter());
         // Slightly less, so that a sheet of exactly n pixels has n pixels in spite of rounding.
         let pixels = |k: usize| ((max[k] - min[k]) * resolution - 1e-6).ceil().max(1.0) as usize;
-        let (width, height) = (pixels(0), pixels(1));
-        checked_cells("flat image", height, width)?;
-        let canvas = Canvas {
-            size: [width, height],
+        let grid = PixelGrid {
+            width: pixels(0),
+            height: pixels(1),
             resolution,
             corner: [min[0], max[1]],
         };
-        let mut found = try_filled("flat image", width * height, NO_PLACE)?;
-        let overlap = rasterise(sheet, &projection, &canvas, &mut found)?;
+        let mut found = empty_places(&grid)?;
+        let overlap = rasterise(sheet, &projection, &grid, &mut found)?;
         if found.iter().all(|place| place[0].is_nan()) {
             return Err(Error::Unsupported {
                 format: "flat image",
                 reason: "no pixel lies on the sheet; choose a higher resolution".into(),
             });
         }
-        let mut map = WarpMap::from_places(canvas.size, resolution, canvas.corner, found);
+        let mut map = WarpMap::from_places(grid, found);
         map.overlap = overlap;
         if options.trim { map.trimmed() } else { Ok(map) }
     }
 
-    /// Makes a map from its places in the photo, one for each pixel of the flat image, row by row. `corner` is the
-    /// position of its upper left corner on the sheet.
-    pub(crate) fn from_places(
-        [width, height]: [usize; 2],
-        resolution: f64,
-        corner: [f64; 2],
-        places: Vec<[f32; 2]>,
-    ) -> Self {
-        debug_assert_eq!(places.len(), width * height);
+    /// Makes a map from its places in the photo, one for each pixel of the flat image, row by row.
+    pub(crate) fn from_places(grid: PixelGrid, places: Vec<[f32; 2]>) -> Self {
+        debug_assert_eq!(places.len(), grid.width * grid.height);
         WarpMap {
-            width,
-            height,
-            resolution,
-            corner,
+            grid,
             places,
             loss: 0.0,
             page_cropped: false,
@@ -135,22 +123,22 @@ impl WarpMap {
 
     /// Number of columns of the flat image.
     pub fn width(&self) -> usize {
-        self.width
+        self.grid.width
     }
 
     /// Number of rows of the flat image.
     pub fn height(&self) -> usize {
-        self.height
+        self.grid.height
     }
 
     /// Resolution of the flat image, in pixels per unit of length of the surface.
     pub fn resolution(&self) -> f64 {
-        self.resolution
+        self.grid.resolution
     }
 
     /// Position of the flat image's upper left corner on the sheet, in the surface's units.
     pub fn corner(&self) -> [f64; 2] {
-        self.corner
+        self.grid.corner
     }
 
     /// Place `[x, y]` in the photo of each pixel, row by row, in the photo's pixels: `[0, 0]` is the
@@ -164,14 +152,14 @@ impl WarpMap {
     /// square root of the sheet's area.
     pub fn displacement(&self) -> f64 {
         // The least squares of |p - (a q + b)|² over complex a and b, with p and q relative to about the middle.
-        let middle = Point2::new(0.5 * self.width as f64, 0.5 * self.height as f64);
+        let middle = Point2::new(0.5 * self.width() as f64, 0.5 * self.height() as f64);
         let point = |[x, y]: [f32; 2]| Point2::new(x.into(), y.into());
         let Some(about) = self.places.iter().find(|place| !place[0].is_nan()) else {
             return 0.0;
         };
         let (mut count, mut from, mut to) = (0.0, Point2::default(), Point2::default());
         let (mut qq, mut pp, mut pq) = (0.0, 0.0, Point2::default());
-        for (row, places) in self.places.chunks_exact(self.width).enumerate() {
+        for (row, places) in self.places.chunks_exact(self.width()).enumerate() {
             for (col, place) in places.iter().enumerate() {
                 if place[0].is_nan() {
                     continue;
@@ -227,7 +215,7 @@ impl WarpMap {
     /// [`Error::OutOfMemory`].
     pub fn image(&self, photo: &Photo<'_>) -> Result<Vec<u8>> {
         let mut out = try_filled("flat image", 4 * self.places.len(), 0)?;
-        self.image_rows(photo, 0..self.height, &mut out);
+        self.image_rows(photo, 0..self.height(), &mut out);
         Ok(out)
     }
 
@@ -237,7 +225,7 @@ impl WarpMap {
     /// # Panics
     /// If there are not four bytes for each pixel of these rows, or not as many rows.
     pub fn image_rows(&self, photo: &Photo<'_>, rows: Range<usize>, rgba: &mut [u8]) {
-        let (width, height) = (self.width, self.height);
+        let (width, height) = (self.width(), self.height());
         assert_eq!(rgba.len(), 4 * width * rows.len());
         let pixels = rgba.as_chunks_mut().0;
         for (row, line) in rows.zip(pixels.chunks_exact_mut(width)) {
@@ -247,35 +235,26 @@ impl WarpMap {
                 if place[0].is_nan() {
                     continue;
                 }
-                let steps = [
-                    self.step(
-                        i,
-                        (col + 1 < width).then_some(i + 1),
-                        col.checked_sub(1).map(|_| i - 1),
-                    ),
-                    self.step(
-                        i,
-                        (row + 1 < height).then_some(i + width),
-                        i.checked_sub(width),
-                    ),
-                ];
-                *pixel = photo.sample(place, steps);
+                let across = self.step(i, 1, [col > 0, col + 1 < width]);
+                let down = self.step(i, width, [row > 0, row + 1 < height]);
+                *pixel = photo.sample(place, [across, down]);
             }
         }
     }
 
     /// Difference of the places in the photo, in pixels, between a pixel and its next neighbour along a row or column,
-    /// or its previous one if the next has no place; 0 if neither has.
+    /// `stride` pixel numbers away, or its previous one if the next has no place; 0 if neither has. The image has a previous and a
+    /// next one or not.
     #[inline]
-    fn step(&self, i: usize, next: Option<usize>, previous: Option<usize>) -> [f32; 2] {
-        let way = |from: usize, to: usize| {
-            let (from, to) = (self.places[from], self.places[to]);
+    fn step(&self, i: usize, stride: usize, [has_previous, has_next]: [bool; 2]) -> [f32; 2] {
+        let from = |i: usize| {
+            let (from, to) = (self.places[i], self.places[i + stride]);
             let step = [to[0] - from[0], to[1] - from[1]];
             (!step[0].is_nan()).then_some(step)
         };
-        let forth = next.and_then(|next| way(i, next));
-        let back = || previous.and_then(|previous| way(previous, i));
-        forth.or_else(back).unwrap_or([0.0; 2])
+        let next = has_next.then(|| from(i)).flatten();
+        let previous = || has_previous.then(|| from(i - stride))?;
+        next.or_else(previous).unwrap_or_default()
     }
 
     /// Crops the map to the largest upright rectangle within the sheet.
@@ -284,7 +263,7 @@ impl WarpMap {
     /// [`Error::OutOfMemory`].
     pub fn trimmed(mut self) -> Result<Self> {
         let inside = |i: usize| !self.places[i][0].is_nan();
-        let [rows, cols] = largest_rectangle(self.width, self.height, inside)?;
+        let [rows, cols] = largest_rectangle(self.width(), self.height(), inside)?;
         let wanted = (0..self.places.len()).filter(|i| inside(*i)).count();
         self.crop_to(rows, cols)?;
         self.set_loss(wanted as f64);
@@ -298,18 +277,37 @@ impl WarpMap {
 
     /// Crops the flat image to ranges of its rows and columns.
     pub(super) fn crop_to(&mut self, rows: Range<usize>, cols: Range<usize>) -> Result<()> {
-        let mut places = try_filled("flat image", rows.len() * cols.len(), NO_PLACE)?;
-        for (out, row) in places.chunks_exact_mut(cols.len()).zip(rows.clone()) {
-            let start = row * self.width + cols.start;
-            out.copy_from_slice(&self.places[start..start + cols.len()]);
+        let first = [cols.start, rows.start].map(|pixel| pixel as isize);
+        self.frame(first, [cols.len(), rows.len()])
+    }
+
+    /// Crops the flat image to a frame of `size` (width and height) pixels whose upper left pixel has the column and row `first`
+    /// in it, or adds empty margins where the frame is outside of it.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub(super) fn frame(&mut self, first: [isize; 2], size: [usize; 2]) -> Result<()> {
+        let grid = self.grid.framed(first, size);
+        let mut places = try_filled("flat image", size[0] * size[1], NO_PLACE)?;
+        let [left, top] = first.map(|pixel| pixel.min(0).unsigned_abs());
+        let [col, row] = first.map(|pixel| pixel.max(0) as usize);
+        let out = places.chunks_exact_mut(grid.width).skip(top);
+        for (out, line) in out.zip(self.places.chunks_exact(self.grid.width).skip(row)) {
+            let common = (out.len() - left).min(line.len() - col);
+            out[left..][..common].copy_from_slice(&line[col..][..common]);
         }
-        self.corner[0] += cols.start as f64 / self.resolution;
-        self.corner[1] -= rows.start as f64 / self.resolution;
-        self.width = cols.len();
-        self.height = rows.len();
-        self.places = places;
+        (self.grid, self.places) = (grid, places);
         Ok(())
     }
+}
+
+/// Places of all pixels of a flat image that shows nothing.
+///
+/// # Errors
+/// [`Error::TooLarge`], [`Error::OutOfMemory`].
+pub(super) fn empty_places(grid: &PixelGrid) -> Result<Vec<[f32; 2]>> {
+    let pixels = checked_cells("flat image", grid.height, grid.width)?;
+    try_filled("flat image", pixels, NO_PLACE)
 }
 
 /// Mean resolution of the photo over the sheet, in pixels per unit of length: the default resolution of the flat image.

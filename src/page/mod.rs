@@ -56,11 +56,12 @@ mod text;
 mod traced_line;
 mod working_photo;
 
+pub use crate::dewarp::PixelGrid;
 pub use edges::{Edges, Trace};
 pub use options::{FocalLength, Format, PageOptions, Ruler};
 pub use outline::{
     OutlineReason, OutlineReport, OutlineVerdict, PageOutline, find_outline, trace_edges,
 };
-pub use page_warp::{PageWarp, PixelGrid};
+pub use page_warp::PageWarp;
 pub use report::{PageDoubt, PageModel, PageReport, PageVerdict};
 pub use surface::PageSurface;

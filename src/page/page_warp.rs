@@ -3,25 +3,12 @@
 use std::ops::Range;
 
 use super::sheet::cell_at;
-use crate::dewarp::{DewarpOptions, Photo, WarpMap};
+use crate::dewarp::{DewarpOptions, Photo, PixelGrid, WarpMap};
 use crate::error::{
     Error, MAX_PHOTO_PIXELS, Result, check_count, checked_pixels, positive, try_filled,
 };
 use crate::math::lanes;
-
-/// Pixel grid of a page's flat image: its size, resolution and corner.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct PixelGrid {
-    /// Number of columns.
-    pub width: usize,
-    /// Number of rows.
-    pub height: usize,
-    /// Pixels per unit of the flat page's length.
-    pub resolution: f64,
-    /// Position of the upper left corner on the flat page, in its unit of length, with y upwards.
-    pub corner: [f64; 2],
-}
+use crate::math::planar::{cross, difference};
 
 /// Warp map of a flat page by shares: places in the photo, in shares of its width and height, at the nodes of a grid over the
 /// page, bilinear in between.
@@ -174,12 +161,8 @@ impl PageWarp {
                 *place = [0, 1].map(|k| p[k] + s * (q[k] - p[k]));
             }
         }
-        let corner = [
-            flat.corner[0],
-            flat.corner[1] - rows.start as f64 / flat.resolution,
-        ];
-        let size = [flat.width, rows.len()];
-        Ok(WarpMap::from_places(size, flat.resolution, corner, found))
+        let band = flat.framed([0, rows.start as isize], [flat.width, rows.len()]);
+        Ok(WarpMap::from_places(band, found))
     }
 
     /// Area of a photo of `photo` (width and height) pixels that the page covers, in pixels.
@@ -189,8 +172,7 @@ impl PageWarp {
             let first = i / (self.columns - 1) * self.columns + i % (self.columns - 1);
             let [a, b, c, d] = [0, 1, self.columns, self.columns + 1]
                 .map(|step| self.places[first + step].map(f64::from));
-            let (p, q) = ([d[0] - a[0], d[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
-            let cell = 0.5 * (p[0] * q[1] - p[1] * q[0]).abs();
+            let cell = 0.5 * cross(difference(a, d), difference(b, c)).abs();
             area += if cell.is_finite() { cell } else { 0.0 };
         }
         (area * photo[0] as f64 * photo[1] as f64).max(1.0)

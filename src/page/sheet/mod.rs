@@ -22,4 +22,5 @@ mod sheet_page;
 mod view;
 
 pub(super) use grid::{cell_at, node_shares};
+pub(super) use polyline::equidistant;
 pub(super) use sheet_page::SheetPage;

@@ -61,14 +61,11 @@ impl ChartSeams {
                 .all(|v| v.is_finite())
                 .then_some((derivative, scales));
         }
-        let mut usual = [0.0; 2];
-        for (k, usual) in usual.iter_mut().enumerate() {
-            let mut all: Vec<f64> = maps.iter().flatten().map(|(_, scales)| scales[k]).collect();
-            let Some(found) = median(&mut all) else {
-                return Ok(None);
-            };
-            *usual = found;
-        }
+        let usual = [0, 1].map(|k| {
+            let all = maps.iter().flatten().map(|(_, scales)| scales[k]);
+            // Without a triangle there are no scales that are compared with it.
+            median(&mut all.collect::<Vec<f64>>()).unwrap_or_default()
+        });
         let within = |scales: &[f64; 2]| {
             (0..2).all(|k| {
                 let ratio = scales[k] / usual[k];

@@ -2,7 +2,9 @@
 
 use super::traced_line::{EDGE_SEGMENTS, TracedLine, TracedPage};
 use crate::error::{Error, Result};
-use crate::math::planar::{distance, distance_to_segment, orientation, polygon_contains};
+use crate::math::planar::{
+    distance, distance_to_segment, orientation, polygon_contains, segments_intersect,
+};
 
 /// Maximum error of what is traced by hand, as a share of the edge's chord: the distance between the ends of two edges that
 /// share a corner, or of a line of text outside of its page.
@@ -65,20 +67,15 @@ fn thinned(line: &TracedLine) -> Vec<[f64; 2]> {
 /// Returns an error if the two bent edges of a page cross each other in the photo.
 fn check_no_crossing(first: &TracedLine, second: &TracedLine) -> Result<()> {
     let (one, other) = (thinned(first), thinned(second));
-    // Edges that touch count, too, unlike in `segments_intersect`.
-    let meet = |s: &[[f64; 2]], t: &[[f64; 2]]| {
-        let is_apart = |k: usize| {
-            s[0][k].max(s[1][k]) < t[0][k].min(t[1][k])
-                || t[0][k].max(t[1][k]) < s[0][k].min(s[1][k])
-        };
-        let sides = |p, q, [r, s]: [[f64; 2]; 2]| orientation(p, q, r) * orientation(p, q, s);
-        !is_apart(0)
-            && !is_apart(1)
-            && sides(s[0], s[1], [t[0], t[1]]) <= 0.0
-            && sides(t[0], t[1], [s[0], s[1]]) <= 0.0
+    // Edges that touch count, too.
+    let meet = |s: [[f64; 2]; 2], t: [[f64; 2]; 2]| {
+        segments_intersect(s, t)
+            || distance_to_segment(s[0], t) == 0.0
+            || distance_to_segment(t[0], s) == 0.0
     };
-    let crossing = (one.windows(2)).find(|s| other.windows(2).any(|t| meet(s, t)));
-    let Some([[x, y], ..]) = crossing else {
+    let meets_other =
+        |s: &&[[f64; 2]]| (other.windows(2)).any(|t| meet([s[0], s[1]], [t[0], t[1]]));
+    let Some([[x, y], ..]) = one.windows(2).find(meets_other) else {
         return Ok(());
     };
     Err(Error::edges(format!(
@@ -93,17 +90,15 @@ fn check_no_crossing(first: &TracedLine, second: &TracedLine) -> Result<()> {
 /// # Errors
 /// [`Error::Edges`].
 pub(super) fn arrange_spread(one: &mut TracedPage, other: &mut TracedPage) -> Result<()> {
-    let gap = |one: &TracedPage, other: &TracedPage| -> f64 {
-        (0..2)
-            .map(|e| distance(one.pair()[e].ends()[1], other.pair()[e].ends()[0]))
-            .sum()
+    let gaps = |one: &TracedPage, other: &TracedPage| {
+        [0, 1].map(|e| distance(one.pair()[e].ends()[1], other.pair()[e].ends()[0]))
     };
-    if gap(other, one) < gap(one, other) {
+    if gaps(other, one).iter().sum::<f64>() < gaps(one, other).iter().sum() {
         std::mem::swap(one, other);
     }
+    let apart = gaps(one, other);
     let (one, other) = (one.pair(), other.pair());
-    for e in 0..2 {
-        let apart = distance(one[e].ends()[1], other[e].ends()[0]);
+    for (e, apart) in apart.into_iter().enumerate() {
         if apart > MAX_TRACING_ERROR * one[e].chord().max(other[e].chord()) {
             return Err(Error::edges(format!(
                 "the {} edges of the two pages end {apart:.0} pixels apart; the pages of a \
@@ -124,14 +119,10 @@ pub(super) fn check_sides(
     sides: &[TracedLine; 2],
 ) -> Result<()> {
     for (k, side) in sides.iter().enumerate() {
-        let corners = [first.ends()[k], second.ends()[k]];
-        let off = |ends: [[f64; 2]; 2]| {
-            (0..2)
-                .map(|e| distance(ends[e], corners[e]))
-                .fold(0.0, f64::max)
-        };
+        let [a, b] = [first.ends()[k], second.ends()[k]];
+        let off = |from, to| distance(from, a).max(distance(to, b));
         let [from, to] = side.ends();
-        let apart = off([from, to]).min(off([to, from]));
+        let apart = off(from, to).min(off(to, from));
         if apart > MAX_TRACING_ERROR * side.chord().max(first.chord()) {
             return Err(Error::edges(format!(
                 "the {} edge ends {apart:.0} pixels from the corner that the {} and {} edges \

@@ -74,29 +74,17 @@ impl Edges {
         }
     }
 
-    /// Returns these edges with each trace replaced; `replace` gets the trace and the number
-    /// of its side, clockwise from the upper one; the lower and the left one run the other way.
-    pub(super) fn map_traces(&self, replace: impl Fn(&Trace, usize) -> Trace) -> Edges {
+    /// The traces of [`Edges::sides`], to be changed.
+    pub(super) fn sides_mut(&mut self) -> [Option<&mut Trace>; 4] {
         match self {
-            Edges::TopBottom { top, bottom } => Edges::TopBottom {
-                top: replace(top, 0),
-                bottom: replace(bottom, 2),
-            },
-            Edges::LeftRight { left, right } => Edges::LeftRight {
-                left: replace(left, 3),
-                right: replace(right, 1),
-            },
+            Edges::TopBottom { top, bottom } => [Some(top), None, Some(bottom), None],
+            Edges::LeftRight { left, right } => [None, Some(right), None, Some(left)],
             Edges::All {
                 top,
                 bottom,
                 left,
                 right,
-            } => Edges::All {
-                top: replace(top, 0),
-                bottom: replace(bottom, 2),
-                left: replace(left, 3),
-                right: replace(right, 1),
-            },
+            } => [top, right, bottom, left].map(Some),
         }
     }
 }

@@ -55,7 +55,7 @@ pub(super) fn read_traces(
     for (number, page) in pages.iter().enumerate() {
         let mut page = read_page(page, photo)?;
         for (line, trace) in text.get(number).into_iter().flatten().enumerate() {
-            let traced = read_line((TEXT_LINE_NAME, trace), photo)?;
+            let traced = read_line(TEXT_LINE_NAME, trace, photo)?;
             check_on_page(page.pair(), &traced.points, line)?;
             page.text.push(traced);
         }
@@ -96,28 +96,25 @@ pub(super) fn page_that_fills(photo: [usize; 2]) -> TracedPage {
 
 /// Reads the edges of one page. Edges that are not traced are straight.
 fn read_page(page: &Edges, photo: [usize; 2]) -> Result<TracedPage> {
-    let pair = |first, second| -> Result<[TracedLine; 2]> {
-        let mut pair = [read_line(first, photo)?, read_line(second, photo)?];
-        arrange(&mut pair)?;
-        Ok(pair)
-    };
-    let straight = |name, one: &TracedLine, other: &TracedLine, end: usize| TracedLine {
+    let read = |name, trace| read_line(name, trace, photo);
+    let straight = |name, [one, other]: &[TracedLine; 2], end: usize| TracedLine {
         name,
         points: vec![one.ends()[end], other.ends()[end]],
     };
-    let (edges, bent) = match page {
+    let ([top, bottom], [left, right], bent) = match page {
         Edges::TopBottom { top, bottom } => {
-            let [top, bottom] = pair(("top", top), ("bottom", bottom))?;
-            let left = straight("left", &top, &bottom, 0);
-            let right = straight("right", &top, &bottom, 1);
-            ([top, bottom, left, right], Some(BentEdges::TopBottom))
+            let mut pair = [read("top", top)?, read("bottom", bottom)?];
+            arrange(&mut pair)?;
+            let sides = [straight("left", &pair, 0), straight("right", &pair, 1)];
+            (pair, sides, Some(BentEdges::TopBottom))
         }
         Edges::LeftRight { left, right } => {
             // Turned by 90°, the right edge is the top one, and the left one the bottom.
-            let [right, left] = pair(("right", right), ("left", left))?;
-            let top = straight("top", &left, &right, 0);
-            let bottom = straight("bottom", &left, &right, 1);
-            ([top, bottom, left, right], Some(BentEdges::LeftRight))
+            let mut sides = [read("right", right)?, read("left", left)?];
+            arrange(&mut sides)?;
+            sides.reverse();
+            let pair = [straight("top", &sides, 0), straight("bottom", &sides, 1)];
+            (pair, sides, Some(BentEdges::LeftRight))
         }
         Edges::All {
             top,
@@ -125,25 +122,18 @@ fn read_page(page: &Edges, photo: [usize; 2]) -> Result<TracedPage> {
             left,
             right,
         } => {
-            let mut pair = [
-                read_line(("top", top), photo)?,
-                read_line(("bottom", bottom), photo)?,
-            ];
-            let mut sides = [
-                read_line(("left", left), photo)?,
-                read_line(("right", right), photo)?,
-            ];
+            let mut pair = [read("top", top)?, read("bottom", bottom)?];
+            let mut sides = [read("left", left)?, read("right", right)?];
             // Each begins at the edge that it shares its first corner with.
             pair.iter_mut().for_each(|edge| edge.begin_at(&sides[0]));
             sides.iter_mut().for_each(|side| side.begin_at(&pair[0]));
             arrange(&mut pair)?;
             check_sides(&pair, &sides)?;
-            let ([top, bottom], [left, right]) = (pair, sides);
-            ([top, bottom, left, right], None)
+            (pair, sides, None)
         }
     };
     Ok(TracedPage {
-        edges,
+        edges: [top, bottom, left, right],
         bent,
         is_seen: true,
         text: Vec::new(),
@@ -165,7 +155,7 @@ fn described(name: &str) -> String {
 ///
 /// # Errors
 /// [`Error::Edges`], [`Error::NotFinite`], [`Error::TooLarge`].
-fn read_line((name, trace): (&'static str, &Trace), photo: [usize; 2]) -> Result<TracedLine> {
+fn read_line(name: &'static str, trace: &Trace, photo: [usize; 2]) -> Result<TracedLine> {
     let given = match trace {
         Trace::Points(points) | Trace::Beziers(points) => points,
     };

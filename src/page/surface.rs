@@ -2,7 +2,7 @@
 
 use super::edges::{Edges, Trace};
 use super::known_sizes::sides;
-use super::options::{Format, PageOptions};
+use super::options::{Format, PageOptions, Ruler};
 use super::page_warp::PageWarp;
 use super::read_traces::{page_that_fills, read_traces};
 use super::report::PageReport;
@@ -120,37 +120,28 @@ impl PageSurface {
         photo: [usize; 2],
         options: &PageOptions,
     ) -> Result<Self> {
-        // Height over width of each page, and their common side.
-        let ratios: Vec<f64> = pages.iter().map(SheetPage::ratio).collect();
-        let count = pages.len() as f64;
-        let along = |ratio: f64| if axis == 0 { 1.0 / ratio } else { ratio };
-        let total: f64 = ratios.iter().map(|ratio| along(*ratio)).sum();
-        // In units of the side where they meet; all pages together.
-        let mut size = [1.0; 2];
-        size[axis] = total;
-        let known = sides(options.format)?.and_then(|sides| sides.millimetres(ratios[0]));
-        let area = match known {
-            Some([width, height]) => count * width * height,
+        // Lengths of the pages along the axis, in units of the side where they meet.
+        let lengths: Vec<f64> = (pages.iter())
+            .map(|page| [1.0 / page.ratio(), page.ratio()][axis])
+            .collect();
+        let (count, total) = (pages.len() as f64, lengths.iter().sum::<f64>());
+        let known = sides(options.format)?.and_then(|sides| sides.millimetres(pages[0].ratio()));
+        let unit = match known {
+            Some([width, height]) => (count * width * height / total).sqrt(),
             // The mean width is 1.
-            None => {
-                (size[0] * size[1])
-                    * if axis == 0 {
-                        (count / total).powi(2)
-                    } else {
-                        1.0
-                    }
-            }
+            None => [count / total, 1.0][axis],
         };
-        let unit = (area / (size[0] * size[1])).sqrt();
+        let mut size = [unit; 2];
+        size[axis] = unit * total;
         let mut end = 0.0;
-        let ends = (ratios.iter())
-            .map(|ratio| {
-                end += along(*ratio) / total;
+        let ends = (lengths.iter())
+            .map(|length| {
+                end += length / total;
                 end
             })
             .collect();
-        let widths = (ratios.iter())
-            .map(|ratio| unit * if axis == 0 { 1.0 / ratio } else { 1.0 })
+        let widths = (lengths.iter())
+            .map(|length| unit * [*length, 1.0][axis])
             .collect();
         let report = (pages.iter())
             .map(|page| page.report)
@@ -165,12 +156,12 @@ impl PageSurface {
             axis,
             widths,
             photo,
-            size: size.map(|side| side * unit),
+            size,
             millimetres: known.is_some(),
             report,
         };
-        if known.is_none() && options.ruler.is_some() {
-            let scale = surface.ruler_scale(options)?;
+        if let Some(ruler) = options.ruler.filter(|_| known.is_none()) {
+            let scale = surface.ruler_scale(&ruler)?;
             surface.size = surface.size.map(|side| side * scale);
             surface.widths.iter_mut().for_each(|width| *width *= scale);
             surface.millimetres = true;
@@ -178,20 +169,14 @@ impl PageSurface {
         Ok(surface)
     }
 
-    /// Millimetres in the unit of lengths, by the ruler in the options.
-    fn ruler_scale(&self, options: &PageOptions) -> Result<f64> {
-        let Some(ruler) = options.ruler else {
-            return Ok(1.0);
-        };
+    /// Millimetres in the unit of lengths, by a ruler on the page.
+    fn ruler_scale(&self, ruler: &Ruler) -> Result<f64> {
         let length = positive("ruler.length", ruler.length)?;
         let end = |pixel| self.page_place(pixel);
         let (Some(from), Some(to)) = (end(ruler.from), end(ruler.to)) else {
             let ends = format!("from {} to {}", ruler.from.readable(), ruler.to.readable());
-            return Err(Error::option(
-                "ruler",
-                ends,
-                "must begin and end on the page",
-            ));
+            let requirement = "must begin and end on the page";
+            return Err(Error::option("ruler", ends, requirement));
         };
         let [width, height] = self.size;
         let found = ((from[0] - to[0]) * width).hypot((from[1] - to[1]) * height);

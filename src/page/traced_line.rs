@@ -55,13 +55,8 @@ impl TracedLine {
 
     /// Reverses the trace if its end is nearer than its start to an end of the trace `other`.
     pub fn begin_at(&mut self, other: &TracedLine) {
-        let gap = |p: [f64; 2]| {
-            other
-                .ends()
-                .map(|q| distance(p, q))
-                .into_iter()
-                .fold(f64::INFINITY, f64::min)
-        };
+        let [start, end] = other.ends();
+        let gap = |p: [f64; 2]| distance(p, start).min(distance(p, end));
         let [from, to] = self.ends();
         if gap(to) < gap(from) {
             self.points.reverse();

@@ -11,7 +11,8 @@ const MAX_WORKING_SIDE: usize = 3072;
 /// A photo, halved as often as its longer side is above 3072 pixels, so that a photo of another resolution of the same
 /// picture, as readers and pages reduce it, becomes the same one.
 pub(super) struct WorkingPhoto<'a> {
-    rgba: Cow<'a, [u8]>,
+    /// RGBA bytes, row by row from the top.
+    pub rgba: Cow<'a, [u8]>,
     /// Number of columns and rows.
     pub size: [usize; 2],
     /// Number of the photo's own pixels along the side of one pixel.
@@ -36,10 +37,5 @@ impl<'a> WorkingPhoto<'a> {
                 _ => Cow::Owned(reduction.reduce(photo.rgba())),
             },
         }
-    }
-
-    /// RGBA bytes, row by row from the top.
-    pub fn rgba(&self) -> &[u8] {
-        &self.rgba
     }
 }

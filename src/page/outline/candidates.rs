@@ -16,8 +16,8 @@ const MIDDLE_SHARE: f64 = 0.25;
 /// Number of levels to which pixel values are rounded when Otsu's thresholds are computed.
 const THRESHOLD_LEVELS: usize = 128;
 
-/// Two masks: whether each pixel is in the strip along the photo's rim, and whether it is in the central rectangle.
-fn frame_and_middle(width: usize, height: usize) -> [Vec<bool>; 2] {
+/// Pixels in the strip along the photo's rim, and those in the central rectangle.
+fn frame_and_middle(width: usize, height: usize) -> [Vec<usize>; 2] {
     let depth = |i: usize| {
         let share = |at: usize, size: usize| {
             let at = (at as f64 + 0.5) / size as f64;
@@ -25,10 +25,10 @@ fn frame_and_middle(width: usize, height: usize) -> [Vec<bool>; 2] {
         };
         share(i % width, width).min(share(i / width, height))
     };
-    let within = |test: &dyn Fn(f64) -> bool| (0..width * height).map(|i| test(depth(i))).collect();
+    let pixels = 0..width * height;
     [
-        within(&|depth| depth < FRAME_SHARE),
-        within(&|depth| depth > MIDDLE_SHARE),
+        pixels.clone().filter(|i| depth(*i) < FRAME_SHARE).collect(),
+        pixels.filter(|i| depth(*i) > MIDDLE_SHARE).collect(),
     ]
 }
 
@@ -72,23 +72,22 @@ fn otsu_thresholds(values: &[f32]) -> Vec<f32> {
         .to_vec()
 }
 
-/// Projects each pixel's colour (lightness and two colour differences) to the one number that separates the masks
+/// Projects each pixel's colour (lightness and two colour differences) to the one number that separates the pixels
 /// `middle` (page) and `frame` (background) best: Fisher's linear discriminant with independent components.
-fn discriminant(axes: &[[f32; 3]], frame: &[bool], middle: &[bool]) -> Vec<f32> {
-    let moments = |mask: &[bool]| {
+fn discriminant(axes: &[[f32; 3]], frame: &[usize], middle: &[usize]) -> Vec<f32> {
+    let moments = |pixels: &[usize]| {
         let mut sums = [[0.0_f64; 2]; 3];
-        let mut count = 0.0_f64;
-        for (colour, _) in axes.iter().zip(mask).filter(|(_, own)| **own) {
-            count += 1.0;
-            for (sum, value) in sums.iter_mut().zip(colour) {
-                let value = f64::from(*value);
+        let count = (pixels.len() as f64).max(1.0);
+        for i in pixels {
+            for (sum, value) in sums.iter_mut().zip(axes[*i]) {
+                let value = f64::from(value);
                 sum[0] += value;
                 sum[1] += value * value;
             }
         }
         sums.map(|[sum, squares]| {
-            let mean = sum / count.max(1.0);
-            (mean, squares / count.max(1.0) - mean * mean)
+            let mean = sum / count;
+            (mean, squares / count - mean * mean)
         })
     };
     let (ground, page) = (moments(frame), moments(middle));
@@ -105,8 +104,7 @@ fn discriminant(axes: &[[f32; 3]], frame: &[bool], middle: &[bool]) -> Vec<f32> 
 pub(super) fn candidate_masks(planes: &Planes) -> Vec<Vec<bool>> {
     let [frame, middle] = frame_and_middle(planes.width, planes.height);
     let model = ColourModel::new(planes);
-    let pixels = |mask: &[bool]| -> Vec<usize> { (0..mask.len()).filter(|i| mask[*i]).collect() };
-    let first = model.classify(pixels(&middle).into_iter(), pixels(&frame).into_iter());
+    let first = model.classify(middle.iter().copied(), frame.iter().copied());
     let mut masks = vec![model.refine(&first)];
     let axis = |k: usize| model.axes.iter().map(|colour| colour[k]).collect();
     let saturation = (0..planes.len()).map(|i| {

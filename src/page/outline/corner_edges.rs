@@ -51,19 +51,20 @@ pub fn trace_edges(photo: &Photo<'_>, pages: &[Edges]) -> Vec<Edges> {
                     .unwrap_or(corners[k]);
             }
         }
-        page.map_traces(|trace, k| match &paths[k] {
-            Some(path) if trace.has_ends_alone() => {
-                let mut edge = path.clone();
+        let mut page = page.clone();
+        let traces = page.sides_mut().into_iter().zip(paths).enumerate();
+        for (k, (trace, path)) in traces {
+            if let (Some(trace), Some(mut edge)) = (trace, path) {
                 end_at(&mut edge, corners[k]);
                 edge.reverse();
                 end_at(&mut edge, corners[(k + 1) % 4]);
                 if k < 2 {
                     edge.reverse();
                 }
-                Trace::Points(thinned(&edge, &views.raw))
+                *trace = Trace::Points(thinned(&edge, &views.raw));
             }
-            _ => trace.clone(),
-        })
+        }
+        page
     };
     pages.iter().map(traced).collect()
 }

@@ -44,7 +44,7 @@ impl Planes {
         let reduction = BoxReduction::new([w, h], block);
         let [width, height] = reduction.size();
         let mut channels = [const { Vec::new() }; 3];
-        reduction.for_each_mean(photo.rgba(), |colour| {
+        reduction.for_each_mean(&photo.rgba, |colour| {
             let colour = colour.map(|value| value.max(0.0));
             let largest = colour.iter().copied().fold(0.0, f64::max);
             let offset = f64::from(LOG_OFFSET) + LARGEST_COMPONENT_SHARE * largest;

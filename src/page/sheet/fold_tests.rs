@@ -77,7 +77,6 @@ fn problem(grid: &SheetGrid, lines: Vec<LevelLine>, folds: Vec<LevelLine>) -> Sh
         traced: 0,
         folds,
         prior: CameraPrior {
-            log_scale: 0.0,
             scale_deviation: 0.01,
             centre_deviation: 0.01,
             log_ratio: None,

@@ -13,8 +13,8 @@ const CELLS_PER_GRID_CELL: usize = 6;
 /// Places in the photo, in pixels, at the nodes of a grid over the flat page; interpolated bilinearly in between.
 #[derive(Debug, Clone)]
 pub(in crate::page) struct PlaceTable {
-    cols: usize,
-    rows: usize,
+    /// Numbers of columns and rows of the nodes.
+    nodes: [usize; 2],
     places: Vec<[f64; 2]>,
 }
 
@@ -24,15 +24,15 @@ impl PlaceTable {
     /// # Errors
     /// [`Error::Empty`] for a sheet that is not in front of the camera.
     pub(super) fn new(grid: &SheetGrid, view: &PhotoView) -> Result<Self> {
-        let [cols, rows] = [grid.cols, grid.rows].map(|n| (n - 1) * CELLS_PER_GRID_CELL + 1);
-        let places: Option<Vec<_>> = node_shares([cols, rows])
+        let nodes = [grid.cols, grid.rows].map(|n| (n - 1) * CELLS_PER_GRID_CELL + 1);
+        let places: Option<Vec<_>> = node_shares(nodes)
             .map(|share| {
                 let seen = grid.camera.project(grid.smooth_at(share))?;
                 Some(view.to_pixels(seen))
             })
             .collect();
         let places = places.ok_or(Error::Empty { what: "page" })?;
-        Ok(PlaceTable { cols, rows, places })
+        Ok(PlaceTable { nodes, places })
     }
 
     /// Width and height of the page in the photo, in pixels, along the lines through its middle.
@@ -42,14 +42,14 @@ impl PlaceTable {
             polyline_length(&places.collect::<Vec<_>>())
         };
         [
-            length(self.cols, |along| [along, 0.5]),
-            length(self.rows, |along| [0.5, along]),
+            length(self.nodes[0], |along| [along, 0.5]),
+            length(self.nodes[1], |along| [0.5, along]),
         ]
     }
 
     /// Numbers of columns and rows of the table's nodes.
     pub fn nodes(&self) -> [usize; 2] {
-        [self.cols, self.rows]
+        self.nodes
     }
 
     /// Finds the place on the flat page, in shares of its width and height, that the photo shows at a pixel: from the nearest
@@ -60,7 +60,7 @@ impl PlaceTable {
             x * x + y * y
         };
         let nearest = |one: &[f64; 2], other: &[f64; 2]| off(*one).total_cmp(&off(*other));
-        let grid = self.nodes().map(|n| (n - 1) / CELLS_PER_GRID_CELL + 1);
+        let grid = self.nodes.map(|n| (n - 1) / CELLS_PER_GRID_CELL + 1);
         let nodes = node_shares(grid).map(|share| (share, off(share)));
         let (mut best, _) = nodes.min_by(|(_, one), (_, other)| one.total_cmp(other))?;
         let mut step = grid.map(|nodes| 1.0 / (nodes - 1) as f64);
@@ -84,10 +84,7 @@ impl PlaceTable {
     /// Interpolates the place in the photo, in pixels, at shares of the page's width and height.
     #[inline]
     pub fn at(&self, share: [f64; 2]) -> [f64; 2] {
-        let at = [
-            share[0] * (self.cols - 1) as f64,
-            share[1] * (self.rows - 1) as f64,
-        ];
-        bilinear(at, [self.cols, self.rows], |i| self.places[i]).unwrap_or([f64::NAN; 2])
+        let at = [0, 1].map(|k| share[k] * (self.nodes[k] - 1) as f64);
+        bilinear(at, self.nodes, |i| self.places[i]).unwrap_or([f64::NAN; 2])
     }
 }

@@ -10,9 +10,7 @@ use crate::page::robust_fit;
 /// Prior knowledge about the camera and the ratio of a page's sides.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CameraPrior {
-    /// Expected logarithm of the ratio of the camera's focal length to the nominal one.
-    pub log_scale: f64,
-    /// Standard deviation of the logarithm of the camera's focal length.
+    /// Standard deviation of the logarithm of the camera's focal length, whose expected value is the nominal one.
     pub scale_deviation: f64,
     /// Standard deviation of the coordinates of the camera's principal point, divided by the nominal focal length.
     pub centre_deviation: f64,
@@ -67,7 +65,7 @@ impl Homography {
     /// the image of a rectangle, given prior knowledge, from the prior's camera on.
     fn camera(&self, prior: &CameraPrior, apparent: f64) -> (SheetCamera, f64) {
         let [ratio, ratio_deviation] = prior.ratio(apparent);
-        let start = SVector::<f64, 4>::new(prior.log_scale, 0.0, 0.0, ratio);
+        let start = SVector::<f64, 4>::new(0.0, 0.0, 0.0, ratio);
         let deviations = SVector::<f64, 4>::new(
             prior.scale_deviation,
             prior.centre_deviation,

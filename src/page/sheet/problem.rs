@@ -128,7 +128,7 @@ impl SheetProblem {
         self.visit_lines(grid, lines.zip(levels), sink)?;
         let (prior, camera) = (&self.prior, &grid.camera);
         let priors = [
-            (camera.log_scale - prior.log_scale, prior.scale_deviation),
+            (camera.log_scale, prior.scale_deviation),
             (camera.centre[0], prior.centre_deviation),
             (camera.centre[1], prior.centre_deviation),
             (grid.log_ratio - self.ratio[0], self.ratio[1]),

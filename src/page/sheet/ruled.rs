@@ -83,7 +83,7 @@ mod tests {
     const RATIO: f64 = 1.4;
 
     const CAMERA: SheetCamera = SheetCamera {
-        log_scale: 0.1,
+        log_scale: 0.0,
         centre: [0.0; 2],
     };
 
@@ -124,7 +124,6 @@ mod tests {
             let chord = HALF_ANGLE.sin() / HALF_ANGLE;
             let apparent = RATIO * if sideways { chord } else { 1.0 / chord };
             let prior = CameraPrior {
-                log_scale: CAMERA.log_scale,
                 scale_deviation: 1e-6,
                 centre_deviation: 1e-6,
                 log_ratio: Some([RATIO.ln(), 0.002]),

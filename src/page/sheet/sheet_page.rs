@@ -118,7 +118,6 @@ impl SheetPage {
         // Nothing is known between corners alone.
         let has_inner_points = page.pair().iter().any(|edge| edge.points.len() > 2);
         let prior = CameraPrior {
-            log_scale: 0.0,
             scale_deviation: focal.map_or(UNKNOWN_FOCAL_DEVIATION, |_| KNOWN_FOCAL_DEVIATION),
             centre_deviation: CENTRE_DEVIATION,
             log_ratio: None,

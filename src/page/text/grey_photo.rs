@@ -10,8 +10,8 @@ pub(super) const MAX_PAGE_WIDTH: f64 = 1000.0;
 /// Brightness of a photo at a reduced resolution, from 0 to 255; NaN where the photo is transparent. Places are given in
 /// the photo's own pixels.
 pub(in crate::page) struct GreyPhoto {
-    width: usize,
-    height: usize,
+    /// Numbers of columns and rows.
+    size: [usize; 2],
     /// Side of the square of the photo's pixels that is one pixel here.
     block: usize,
     /// Side of the square of the photo's pixels that is one pixel of the photo in which pages are found.
@@ -26,14 +26,13 @@ impl GreyPhoto {
         let squares = page_width / photo.block as f64 / MAX_PAGE_WIDTH;
         let block = squares.round().max(1.0) as usize;
         let reduction = BoxReduction::new(photo.size, block);
-        let [width, height] = reduction.size();
+        let size @ [width, height] = reduction.size();
         let mut data = Vec::with_capacity(width * height);
-        reduction.for_each_mean(photo.rgba(), |[r, g, b]| {
+        reduction.for_each_mean(&photo.rgba, |[r, g, b]| {
             data.push(lanes::single(0.299 * r + 0.587 * g + 0.114 * b));
         });
         GreyPhoto {
-            width,
-            height,
+            size,
             block: photo.block * block,
             working_block: photo.block,
             data,
@@ -44,10 +43,8 @@ impl GreyPhoto {
     pub fn at(&self, place: [f64; 2]) -> f32 {
         let half = 0.5 * (self.block as f64 - 1.0);
         let [x, y] = place.map(|at| (at - half) / self.block as f64);
-        bilinear([x, y], [self.width, self.height], |i| {
-            [f64::from(self.data[i])]
-        })
-        .map_or(f32::NAN, |[value]| value as f32)
+        bilinear([x, y], self.size, |i| [f64::from(self.data[i])])
+            .map_or(f32::NAN, |[value]| value as f32)
     }
 }
 

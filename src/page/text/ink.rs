@@ -49,15 +49,15 @@ impl InkImage {
 /// Brightness of the paper, measured in square blocks of the flat page, by which shadows are corrected.
 struct PaperBrightness {
     side: usize,
-    cols: usize,
-    rows: usize,
+    /// Numbers of columns and rows of blocks.
+    size: [usize; 2],
     levels: Vec<f32>,
 }
 
 impl PaperBrightness {
     fn new(data: &[f32], [width, height]: [usize; 2]) -> Self {
         let side = width.div_ceil(PAPER_BLOCKS_ACROSS).max(8);
-        let [cols, rows] = [width, height].map(|n| n.div_ceil(side));
+        let size @ [cols, rows] = [width, height].map(|n| n.div_ceil(side));
         let mut levels = Vec::with_capacity(cols * rows);
         for block in 0..cols * rows {
             let [x, y] = [block % cols * side, block / cols * side];
@@ -78,21 +78,16 @@ impl PaperBrightness {
         for (level, near) in levels.iter_mut().zip(near) {
             *level = if level.is_nan() { near } else { *level };
         }
-        PaperBrightness {
-            side,
-            cols,
-            rows,
-            levels,
-        }
+        PaperBrightness { side, size, levels }
     }
 
     /// Interpolates the paper's brightness at a pixel, bilinearly between the centres of blocks.
     fn at(&self, pixel: [usize; 2]) -> f32 {
-        let size = [self.cols, self.rows];
         let at = [0, 1].map(|k| {
             let at = (pixel[k] as f64 + 0.5) / self.side as f64 - 0.5;
-            at.clamp(0.0, (size[k] - 1) as f64)
+            at.clamp(0.0, (self.size[k] - 1) as f64)
         });
-        bilinear(at, size, |i| [f64::from(self.levels[i])]).map_or(f32::NAN, |[level]| level as f32)
+        bilinear(at, self.size, |i| [f64::from(self.levels[i])])
+            .map_or(f32::NAN, |[level]| level as f32)
     }
 }

@@ -99,7 +99,9 @@ impl WarpMap {
                 }
             }
         }
-        let map = map.tight()?;
+        if let Some([rows, cols]) = map.bounds(|place| !place[0].is_nan()) {
+            map.crop_to(rows, cols)?;
+        }
         if trim { map.trimmed() } else { Ok(map) }
     }
 
@@ -117,14 +119,6 @@ impl WarpMap {
                 *place = [f32::NAN; 2];
             }
         }
-    }
-
-    /// Removes empty rows and columns around the sheet from the flat image.
-    fn tight(mut self) -> Result<Self> {
-        if let Some([rows, cols]) = self.bounds(|place| !place[0].is_nan()) {
-            self.crop_to(rows, cols)?;
-        }
-        Ok(self)
     }
 
     /// Finds the rows and columns of the flat image that show wanted places in the photo; None if there are none.

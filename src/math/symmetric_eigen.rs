@@ -11,6 +11,10 @@ const MAX_JACOBI_SWEEPS: usize = 12;
 pub(crate) fn symmetric_eigen3(mut matrix: Matrix3<f64>) -> [(f64, Vector3<f64>); 3] {
     let mut vectors = Matrix3::identity();
     for _ in 0..MAX_JACOBI_SWEEPS {
+        let off_diagonal = matrix[(0, 1)].abs() + matrix[(0, 2)].abs() + matrix[(1, 2)].abs();
+        if off_diagonal <= f64::EPSILON * f64::EPSILON * matrix.amax() {
+            break;
+        }
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
             let off_diagonal = matrix[(p, q)];
             if off_diagonal == 0.0 || !off_diagonal.is_finite() {

@@ -148,8 +148,9 @@ impl Ord for Candidate {
 
 /// A mesh of which some edges have been contracted.
 struct Contraction {
-    /// Origin of the places: coordinates far from it would lose digits in squares.
+    /// Origin and unit of the places: others would lose digits in squares.
     middle: Place,
+    unit: f64,
     places: Vec<Place>,
     triangles: Vec<[u32; 3]>,
     /// The triangles at each vertex; none at one that has become another.
@@ -167,9 +168,12 @@ impl Contraction {
     fn new(solid: &Polyhedron) -> Contraction {
         let n = solid.places.len();
         let middle = solid.places.iter().sum::<Place>() / n.max(1) as f64;
+        let from_middle = solid.places.iter().map(|place| (place - middle).amax());
+        let unit = from_middle.fold(f64::MIN_POSITIVE, f64::max);
         let mut left = Contraction {
             middle,
-            places: solid.places.iter().map(|place| place - middle).collect(),
+            unit,
+            places: (solid.places.iter().map(|place| (place - middle) / unit)).collect(),
             triangles: solid.triangles.clone(),
             around: vec![Vec::new(); n],
             quadrics: vec![Quadric::ZERO; n],
@@ -180,18 +184,18 @@ impl Contraction {
         };
         for (t, corners) in solid.triangles.iter().enumerate() {
             let normal = left.area_vector(t as u32, |v| left.place(v));
-            let (unit, area) = (normal.try_normalize(0.0).unwrap_or_default(), normal.norm());
+            let (upwards, area) = (normal.try_normalize(0.0).unwrap_or_default(), normal.norm());
             for (k, v) in corners.iter().enumerate() {
                 left.around[*v as usize].push(t as u32);
                 let at = left.place(*v);
-                left.add(&[*v], Quadric::of_plane(unit, &at, area));
+                left.add(&[*v], Quadric::of_plane(upwards, &at, area));
                 if solid.twins[3 * t + k] != NO_INDEX {
                     continue;
                 }
                 // A plane through the border, across the triangle, keeps the border where it is.
                 let ends = [*v, corners[(k + 1) % 3]];
                 let along = left.place(ends[1]) - at;
-                let across = along.cross(&unit).try_normalize(0.0).unwrap_or_default();
+                let across = along.cross(&upwards).try_normalize(0.0).unwrap_or_default();
                 left.add(&ends, Quadric::of_plane(across, &at, along.norm_squared()));
                 ends.iter().for_each(|v| left.on_border[*v as usize] = true);
             }
@@ -330,7 +334,7 @@ impl Contraction {
     /// The mesh that is left, with its vertices numbered anew.
     fn finished(self, given: &Polyhedron) -> Decimated {
         let squares: f64 = (given.places.iter().enumerate())
-            .map(|(v, place)| self.squared_distance(v, &(place - self.middle)))
+            .map(|(v, place)| self.squared_distance(v, &((place - self.middle) / self.unit)))
             .sum();
         let mut numbers = vec![NO_INDEX; self.places.len()];
         let mut places = Vec::new();
@@ -349,7 +353,7 @@ impl Contraction {
                     let number = &mut numbers[v as usize];
                     if *number == NO_INDEX {
                         *number = places.len() as u32;
-                        places.push(self.place(v) + self.middle);
+                        places.push(self.unit * self.place(v) + self.middle);
                     }
                     *number
                 })
@@ -358,7 +362,7 @@ impl Contraction {
         Decimated {
             places,
             triangles,
-            distance: (squares / given.places.len().max(1) as f64).sqrt(),
+            distance: self.unit * (squares / given.places.len().max(1) as f64).sqrt(),
         }
     }
 }

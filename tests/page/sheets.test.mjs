@@ -211,6 +211,27 @@ doorTest('a sheet that takes several pages is made to fit one', async (page) => 
   assert.ok(side > 60 && side < 150, `${side}`);
 });
 
+doorTest('flat faces stand for a shape, as many as are wanted, and can be cut apart', async (page) => {
+  const [rings, sectors] = [8, 12];
+  const turn = (/** @type {number} */ k, /** @type {number} */ n) => [Math.cos((2 * Math.PI * k) / n), Math.sin((2 * Math.PI * k) / n)];
+  const points = Array.from({ length: rings * sectors }, (_, i) => {
+    const [[x, y], [far, up]] = [turn(i % sectors, sectors), turn(Math.floor(i / sectors), rings)];
+    return /** @type {const} */ ([x * (40 + 15 * far), y * (40 + 15 * far), 15 * up]);
+  });
+  const vertex = (/** @type {number} */ ring, /** @type {number} */ sector) => (ring % rings) * sectors + (sector % sectors);
+  const triangles = points.flatMap((_, i) => {
+    const [ring, sector] = [Math.floor(i / sectors), i % sectors];
+    const [a, b, c, d] = [vertex(ring, sector), vertex(ring, sector + 1), vertex(ring + 1, sector + 1), vertex(ring + 1, sector)];
+    return /** @type {const} */ ([[a, b, c], [a, c, d]]);
+  });
+  await openWhole(page, 'ring.obj', obj({ points, triangles }));
+  await openSheets(page);
+  assert.doesNotMatch(await page.locator('.sheets .said').innerText(), /flat faces/);
+  await page.getByLabel('Flat faces at most').fill('60');
+  await page.locator('.sheets .said', { hasText: /Built of 60 flat faces, \d.* mm from the shape\.$/ }).waitFor();
+  assert.ok(await page.locator('.sheets .edges').isVisible());
+});
+
 doorTest('the size and the cuts of a model stay with it, and what no piece has is said at the field', async (page) => {
   const [side, toCut, wrong] = [page.getByLabel('Longer side when finished'), page.getByLabel('Cut between pieces'), page.locator('#sheet-cut-wrong')];
   /** @param {[string, string]} wanted */

@@ -122,6 +122,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
   };
   const showFields = () => {
     fields.show(!isMetal(), 'sheet-tabs');
+    fields.show(fields.text('sheet-faces') === '', 'sheet-detail');
     fields.show(!isMetal() && fields.isChecked('sheet-tabs'), 'sheet-tab-depth');
     fields.show(isMetal() && thickness === undefined, 'sheet-thickness', 'sheet-radius');
     fields.show(isMetal(), 'sheet-k');

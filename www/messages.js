@@ -278,7 +278,7 @@ export function piecesInWords(pieces, creases, oneSide = false) {
     ? `${smooth}${pieces === 1 ? none : ', apart from each other'}`
     : `${smooth} ${pieces === 1 ? 'with' : 'meet in'} ${creases === 1 ? 'one crease' : `${count(creases)} creases`}`;
   if (oneSide && !Number.isFinite(pieces)) return 'Seen from one side only. Solve the whole mesh?';
-  const words = Number.isFinite(pieces) ? meet : 'Its pieces run into each other, and are not counted';
+  const words = Number.isFinite(pieces) ? meet : 'Its smooth pieces run into each other';
   return oneSide ? `From this side: ${words[0].toLowerCase()}${words.slice(1)}.` : `${words}.`;
 }
 

@@ -76,6 +76,9 @@ pageTest('behind each door is an example, one click away, and Back leads to the 
   await choose(page.getByRole('radio', { name: 'Curvature K' }));
   await page.locator('#stage[data-busy="false"] #about-view', { hasText: 'all faces are flat' }).waitFor();
   assert.equal(await page.locator('.bar').count(), 0);
+  await choose(page.getByRole('radio', { name: 'Laid flat' }));
+  await page.locator('#stage[data-busy="false"] #about-view', { hasText: 'Nothing of it is stretched.' }).waitFor();
+  assert.equal(await page.locator('.bar').count(), 0);
   assert.equal(await page.locator('.primary:visible').count(), 1, 'one main button');
   await page.locator('#end-sheets').click();
   await page.locator('#save-title', { hasText: /64 mm, 1 page/ }).waitFor();

@@ -33,14 +33,14 @@ export async function sheetOfMesh(unit, { triangles, places, stretches, report: 
     ['Largest strain', percent(strain)],
     ['Seam gap of folds', `${numberAgainst(seamGap, picture.extent.width)} ${unit}`],
     ...(missing.area > 0 ? [/** @type {const} */ (['Left out', `${number(missing.area)} ${areaUnit(unit)}`])] : []),
-  ]);
+  ], percent(strain) !== percent(0));
 }
 
-/** @param {Sheet} picture @param {string} unit @param {string} said @param {readonly (readonly [string, string])[]} facts @returns {ViewContent} */
-function sheet(picture, unit, said, facts) {
+/** @param {Sheet} picture @param {string} unit @param {string} said @param {readonly (readonly [string, string])[]} facts @param {boolean} [isStrained] @returns {ViewContent} */
+function sheet(picture, unit, said, facts, isStrained = true) {
   const { extent, maxStrain } = picture;
   const size = `${number(extent.width, 4)} × ${number(extent.height, 4)} ${unit}`;
-  return { flat: pictureOf(picture, unit, `The surface laid flat, ${size}`), said: `${said} Colour shows where it had to be stretched or compressed.`, colours: { title: 'Strain: blue is compressed, red is stretched', scale: linearScale(maxStrain, signedPercent) }, about: [figures([['Sheet size', size], ...facts])] };
+  return { flat: pictureOf(picture, unit, `The surface laid flat, ${size}`), said: `${said} ${isStrained ? 'Colour shows where it had to be stretched or compressed' : 'Nothing of it is stretched'}.`, colours: isStrained ? { title: 'Strain: blue is compressed, red is stretched', scale: linearScale(maxStrain, signedPercent) } : undefined, about: [figures([['Sheet size', size], ...facts])] };
 }
 
 /** The picture of a sheet with a scale bar. @param {Sheet} sheet @param {string} unit @param {string} words @returns {Picture} */

@@ -232,7 +232,7 @@ pub fn fit_cylinder(input: impl Into<Input>) -> Result<Cylinder> {
         }
     });
     let extent = [axes.bins as f64 * axes.unit, axes.last - axes.first];
-    let noise = Noise::from_input(&input)?;
+    let noise = Noise::from_input(&input, input.is_measured)?;
     let length = noise.map_or(0.0, |noise| noise.correlation_length);
     let excess = residual_excess::residual_excess(residuals, extent, length);
     let mut heights = try_filled("cylinder", lattice.len(), f64::NAN)?;

@@ -38,15 +38,16 @@ pub(crate) struct InputStatistics {
 
 impl InputStatistics {
     pub(crate) fn of(input: &Input, options: &Options) -> Result<Self> {
-        let wanted = options.lambda_or_default() == Lambda::Auto
-            || options.energy_or_default() == Energy::Huber;
+        let is_auto = options.lambda_or_default() == Lambda::Auto;
+        let wanted = is_auto || options.energy_or_default() == Energy::Huber;
         Ok(InputStatistics {
             range: height_range(input),
             spread: height_spread(input),
             is_measured: input.is_measured,
             scale: options.normalization.factor(&input.field),
             noise: if wanted {
-                Noise::from_input(input)?
+                // Beside a λ that is given, noise only makes the penalty flatter: a shape is not lost to it.
+                Noise::from_input(input, input.is_measured || !is_auto)?
             } else {
                 None
             },

@@ -62,7 +62,7 @@ impl CorrelatedNoise {
     /// hides it. A shape beside the noise adds to the curvatures of large discs, so that the covariance counts that explains the
     /// largest discs with all smaller ones.
     ///
-    /// Where a camera has measured the heights, the covariance need not explain the smallest discs, which show the rounding to whole
+    /// Where what is rough is noise, as in heights that a camera has measured, the covariance need not explain the smallest discs, which show the rounding to whole
     /// millimetres as well, and noise may be as smooth as the longest length that is tried, or smoother. Elsewhere that is a shape:
     /// a terrain bends more at every smaller scale, too (`benches/scenes.md`, Terrain).
     ///
@@ -71,7 +71,7 @@ impl CorrelatedNoise {
     pub(super) fn from_scales(
         scales: &[CurvatureScale],
         discs: &[Disc],
-        is_measured: bool,
+        is_rough_noise: bool,
     ) -> Option<Self> {
         let mut scales = scales.to_vec();
         let is_anisotropic = scales.first().is_some_and(is_anisotropic);
@@ -91,12 +91,12 @@ impl CorrelatedNoise {
         };
         let found = (2..=noisy).rev().find_map(|count| {
             let late = count.saturating_sub(MIN_LATE_SCALES);
-            let starts = if is_measured { late + 1 } else { 1 };
+            let starts = if is_rough_noise { late + 1 } else { 1 };
             let trials = Trials::new(&scales[..count], discs);
             (0..starts)
                 .filter(|first| *first == 0 || scales[*first..count].iter().all(bends_both_ways))
                 .map(|first| trials.fit(first))
-                .filter(|covariance| is_measured || !covariance.is_smoothest)
+                .filter(|covariance| is_rough_noise || !covariance.is_smoothest)
                 .find(|covariance| covariance.misfit < MAX_MISFIT)
         })?;
         Some(CorrelatedNoise {
@@ -237,12 +237,12 @@ mod tests {
     #[test]
     fn what_is_smoother_than_any_length_may_be_a_shape() {
         let discs = discs();
-        let found = |length, is_measured| {
+        let found = |length, is_rough_noise| {
             let scales = [0, 1].map(|disc| CurvatureScale {
                 white_equivalent: response(&scale(0, disc), &discs, length),
                 ..scale(0, disc)
             });
-            CorrelatedNoise::from_scales(&scales, &discs, is_measured).is_some()
+            CorrelatedNoise::from_scales(&scales, &discs, is_rough_noise).is_some()
         };
         assert!(found(1.5, true) && found(1.5, false));
         assert!(found(6.0, true) && !found(6.0, false));

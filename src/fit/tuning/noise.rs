@@ -47,11 +47,12 @@ pub(crate) struct Noise {
 }
 
 impl Noise {
-    /// Estimates the noise of an input; `None` if it has too few heights.
+    /// Estimates the noise of an input; `None` if it has too few heights. `is_rough_noise` says that what is rough is noise, however
+    /// large it is, and no shape.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub(crate) fn from_input(input: &Input) -> Result<Option<Self>> {
+    pub(crate) fn from_input(input: &Input, is_rough_noise: bool) -> Result<Option<Self>> {
         let Some(rings) = ring_noise(input) else {
             return Ok(None);
         };
@@ -81,7 +82,7 @@ impl Noise {
             product: 0.0,
             step: step.filter(|_| is_rounding),
         };
-        if let Some(found) = correlated_noise(input)? {
+        if let Some(found) = correlated_noise(input, is_rough_noise)? {
             let root = found.white_equivalent;
             if found.is_anisotropic || root >= MIN_CORRELATED_RATIO * white {
                 noise.sigma = found.sigma;
@@ -100,10 +101,10 @@ impl Noise {
 }
 
 /// Estimates correlated noise of an input; `None` if a shape hides it.
-fn correlated_noise(input: &Input) -> Result<Option<CorrelatedNoise>> {
+fn correlated_noise(input: &Input, is_rough_noise: bool) -> Result<Option<CorrelatedNoise>> {
     let discs: Vec<Disc> = DISC_RADII.into_iter().filter_map(Disc::new).collect();
     let scales = curvature_scales(input, &discs)?;
-    let found = CorrelatedNoise::from_scales(&scales, &discs, input.is_measured);
+    let found = CorrelatedNoise::from_scales(&scales, &discs, is_rough_noise);
     Ok(found)
 }
 
@@ -159,6 +160,7 @@ fn ring_noise(input: &Input) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::Options;
+    use crate::fit::options::Lambda;
     use crate::fit::tuning::closed_form::{InputStatistics, initial_options};
     use crate::heights::heightfield::Heightfield;
     use crate::lattice::hexagonal::Lattice;
@@ -191,12 +193,14 @@ mod tests {
     }
 
     fn noise_of(field: Heightfield) -> Noise {
-        Noise::from_input(&field.into()).unwrap().unwrap()
+        Noise::from_input(&field.into(), false).unwrap().unwrap()
     }
 
     fn noise_of_depths(field: Heightfield) -> Noise {
         let input = Input::new(field).measured_by_camera();
-        Noise::from_input(&input).unwrap().unwrap()
+        Noise::from_input(&input, input.is_measured)
+            .unwrap()
+            .unwrap()
     }
 
     /// Heights whose second differences grow with a power of their distance, as those of terrains do: sums of blurred noise whose sizes grow
@@ -210,10 +214,14 @@ mod tests {
             (heights.iter_mut().zip(noise)).for_each(|(z, n)| *z += blur.powf(1.2) * n);
         }
         let field = Heightfield::new(lattice, heights).unwrap();
+        let options = Options::default().lambda(Lambda::Medium);
+        let given = InputStatistics::of(&field.clone().into(), &options).unwrap();
         let [noise, of_camera] = [noise_of(field.clone()), noise_of_depths(field)];
         assert!(noise.sigma < 5.0, "{noise:?}");
         // The largest discs alone show smooth noise that is ten times as large.
         assert!(of_camera.sigma > 20.0, "{of_camera:?}");
+        // Beside a λ that is given these make the penalty flatter.
+        assert_eq!(given.noise, Some(of_camera));
     }
 
     #[test]
@@ -369,7 +377,9 @@ mod tests {
         let input = Input::new(field)
             .with_confidence(confidence.collect())
             .unwrap();
-        let found = Noise::from_input(&input).unwrap().unwrap();
+        let found = Noise::from_input(&input, input.is_measured)
+            .unwrap()
+            .unwrap();
         assert!((found.sigma / trusted - 1.0).abs() < 0.1, "{found:?}");
         assert_eq!(found.correlation_length, 0.0);
     }
@@ -456,6 +466,6 @@ mod tests {
         let flat = Heightfield::from_fn(lattice(), |_, _| 0.0).unwrap();
         assert_eq!(noise_of(flat).sigma, 0.0);
         let tiny = Heightfield::from_fn(Lattice::new(3, 3, 1.0).unwrap(), |x, _| x).unwrap();
-        assert_eq!(Noise::from_input(&tiny.into()).unwrap(), None);
+        assert_eq!(Noise::from_input(&tiny.into(), false).unwrap(), None);
     }
 }

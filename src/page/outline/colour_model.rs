@@ -54,11 +54,25 @@ impl ColourModel {
         }
     }
 
-    /// Counts the relative frequency of each colour bin among some pixels. Each bin has one pixel more, so that no frequency
-    /// is 0.
+    /// Counts the relative frequency of each colour bin among some pixels, smoothed over neighbouring bins. Each bin has one
+    /// pixel more, so that no frequency is 0.
     fn histogram(&self, pixels: impl Iterator<Item = usize>) -> Vec<f32> {
-        let mut counts = vec![1.0_f32; BINS_PER_COMPONENT.iter().product()];
+        let [n, m, k] = BINS_PER_COMPONENT;
+        let mut counts = vec![1.0_f32; n * m * k];
         pixels.for_each(|i| counts[usize::from(self.bins[i])] += 1.0);
+        for (stride, length) in [(m * k, n), (k, m), (1, k)] {
+            let before = counts.clone();
+            for (i, count) in counts.iter_mut().enumerate() {
+                let place = (i / stride) % length;
+                let lower = if place > 0 { before[i - stride] } else { 0.0 };
+                let upper = if place + 1 < length {
+                    before[i + stride]
+                } else {
+                    0.0
+                };
+                *count = 0.25 * (lower + 2.0 * before[i] + upper);
+            }
+        }
         let norm = 1.0 / counts.iter().sum::<f32>();
         counts.iter().map(|count| count * norm).collect()
     }

@@ -4,9 +4,8 @@ use super::corners::is_outside;
 use super::planes::Planes;
 use super::smooth_curve::piecewise_smooth;
 use super::views::View;
-use crate::math::planar::{distance, polyline_length};
+use crate::math::planar::distance;
 use crate::page::best_path::{best_path, parabola_peak};
-use crate::page::sheet::equidistant;
 
 /// Half the width of the band along a region's border in which the page's edge is searched, in pixels of the reduced
 /// photo.
@@ -50,10 +49,20 @@ pub(super) struct EdgePath {
     pub contrast: f64,
 }
 
-/// Resamples a polyline at a spacing of about one pixel.
+/// Resamples a polyline at a spacing of one pixel.
 fn resampled(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let segments = polyline_length(points).ceil().max(1.0) as usize;
-    equidistant(points, segments + 1).0
+    let mut found = Vec::new();
+    let mut ahead = 0.0;
+    for pair in points.windows(2) {
+        let length = distance(pair[0], pair[1]);
+        while ahead < length {
+            let t = ahead / length;
+            found.push([0, 1].map(|k| pair[0][k] + t * (pair[1][k] - pair[0][k])));
+            ahead += 1.0;
+        }
+        ahead -= length;
+    }
+    found
 }
 
 /// Unit normals of a polyline to the right of its direction, as seen in an image; along a clockwise border they point
@@ -164,14 +173,14 @@ impl EdgePath {
     /// Finds the edge of a page in a view of a photo near a region's border, which is given clockwise from one corner to the
     /// next. `None` if the border is too short.
     pub fn new(view: &View<'_>, border: &[[f64; 2]]) -> Option<Self> {
-        if polyline_length(border) <= 2.0 * AVERAGING_RADIUS as f64 {
-            return None;
-        }
         let size = [view.raw.width, view.raw.height];
         let border = resampled(&piecewise_smooth(
             &resampled(border),
             BORDER_SMOOTHING_LENGTH,
         ));
+        if border.len() <= 2 * AVERAGING_RADIUS {
+            return None;
+        }
         let normals = inward_normals(&border);
         let clean = Band::new(view.planes, &border, &normals);
         let raw = Band::new(view.raw, &border, &normals);

@@ -22,5 +22,4 @@ mod sheet_page;
 mod view;
 
 pub(super) use grid::{cell_at, node_shares};
-pub(super) use polyline::equidistant;
 pub(super) use sheet_page::SheetPage;

@@ -111,7 +111,7 @@ impl Polyline {
 
 /// Resamples a curve, given by at least two points, to `count` points at equal distances along it; returns them with the
 /// curve's length.
-pub(in crate::page) fn equidistant<const N: usize>(
+pub(super) fn equidistant<const N: usize>(
     points: &[[f64; N]],
     count: usize,
 ) -> (Vec<[f64; N]>, f64) {

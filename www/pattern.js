@@ -57,13 +57,7 @@ export function lengthUnitOf({ unit, kind }) {
   return unit !== undefined && Object.hasOwn(MM_PER_UNIT, unit) ? /** @type {LengthUnit} */ (unit) : 'unknown';
 }
 
-/**
- * Cuts a result into sheets; one that is creased all over becomes flat faces at once, since cuts that lay it flat are looked for in vain for a minute.
- * @param {Analyses} analyses
- * @param {Result} result
- * @param {CutOptions} options
- * @param {Tell} tell
- */
+/** Cuts a result into sheets; one that is creased all over becomes flat faces at once, since cuts fail after a minute. @param {Analyses} analyses @param {Result} result @param {CutOptions} options @param {Tell} tell */
 export async function cutSheets(analyses, result, { side, ...given }, tell) {
   const { count: patches } = await analyses.patchCount(result);
   const { faces = Number.isFinite(patches) ? undefined : FEW_FACES } = given;

@@ -211,6 +211,7 @@ export const SOLID_WORDS = {
 export const SAVE_WORDS = {
   pdf: 'to print or to send',
   cancelled: 'Cancelled.',
+  noDialog: 'The dialog could not be opened',
   pdfOfTwo: 'to print or to send, one page for each',
   working: 'Writing the file…',
   saved: (/** @type {string} */ name) => `Saved ${name}. Choose another format, or close the dialog.`,
@@ -328,6 +329,4 @@ export function meshLambdaChoiceInWords({ report: { lambda, sigma, stopReason },
 }
 
 /** The message about an error. @param {string} doing what could not be done @param {unknown} error */
-export function errorMessage(doing, error) {
-  return `${doing}: ${plainMessage(error)}.`;
-}
+export const errorMessage = (doing, error) => `${doing}: ${plainMessage(error)}.`;

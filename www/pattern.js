@@ -26,9 +26,7 @@ const DEFAULT_FINISHED_SIDE_MM = 180;
 const [LINE_PIXELS, TEXT_PIXELS, TEXTS_ACROSS, TITLES_HIGH] = [1.2, 12, 5, 3];
 
 /** Longer side of a result seen from above, in the unit of its input. @param {Result} result */
-export function longerSide({ input: { width, height, pixelSize } }) {
-  return Math.max(width, height) * pixelSize;
-}
+export const longerSide = ({ input: { width, height, pixelSize } }) => Math.max(width, height) * pixelSize;
 
 /** Millimetres in a metre, in an inch and in the other units of length. */
 export const MM_PER_UNIT = { mm: 1, cm: 10, m: 1000, inch: 25.4 };
@@ -37,9 +35,7 @@ export const [MIN_SIDE_MM, MAX_SIDE_MM] = [10, 5000];
 /** @typedef {keyof typeof MM_PER_UNIT} LengthUnit */
 
 /** The longer side of a surface in millimetres; NaN if its unit is not known. @param {number} length longer side in its unit @param {string | null} [unit] */
-export function trueSide(length, unit) {
-  return Number((length * (MM_PER_UNIT[/** @type {LengthUnit} */ (unit ?? '')] ?? NaN)).toPrecision(4));
-}
+export const trueSide = (length, unit) => Number((length * (MM_PER_UNIT[/** @type {LengthUnit} */ (unit ?? '')] ?? NaN)).toPrecision(4));
 
 /**
  * The suggested longer side of a finished surface, in millimetres: its true size, if it can have that.

@@ -1,5 +1,4 @@
 /** Solids for 3D printers: an open surface gets a base or a thickness, and all lengths become millimetres. */
-
 import { make } from './dom.js';
 import { between, fieldsOf } from './fields.js';
 import { FORMAT_WORDS, SOLID_WORDS } from './messages.js';

@@ -127,7 +127,7 @@ pageTest('the site works under any path and without a network, and is renewed as
 const QUICK = { params: { [constants.BROTLI_PARAM_QUALITY]: 6 } };
 
 /** What may be sent for the doors with their pictures, which need no solver, and for an example that is solved and drawn: requests, and kilobytes as the site sends them. */
-const LOADING_LIMITS = [{ start: '', seen: '.doors', requests: 7, kB: 151 }, { start: '#example=roof&size=100', seen: '#certificate', requests: 8, kB: 491 }];
+const LOADING_LIMITS = [{ start: '', seen: '.doors', requests: 7, kB: 147 }, { start: '#example=roof&size=100', seen: '#certificate', requests: 8, kB: 487 }];
 
 for (const { start, seen, requests, kB } of LOADING_LIMITS) {
   pageTest(`few requests and bytes come before ${seen}`, async (page) => {

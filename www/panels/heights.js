@@ -8,7 +8,6 @@ import { patchesOfHeights } from '../views/patches.js';
 import { hasColours, photo } from '../views/photo.js';
 import { flat } from '../views/pieces.js';
 import { rulings } from '../views/rulings.js';
-import { offerFile, offerResultSheets } from './save.js';
 import { stagePanel } from './stage.js';
 
 /** @import {Relief} from '../surface/relief.js' */
@@ -63,8 +62,8 @@ export function heightsPanel(session, analyses) {
     stop: () => analyses.stop(),
     run: () => void session.run(),
     cancel: () => session.cancel(),
-    saveFile: () => session.result && offerFile(session.api, session.result),
-    cutSheets: () => session.result && offerResultSheets(session, session.result, analyses, () => heights.cutSheets()),
+    saveFile: async () => (await import('./save.js')).offerFile(session),
+    cutSheets: async () => (await import('./save.js')).offerResultSheets(session, analyses, () => void heights.cutSheets()),
   };
   const stage = stagePanel(heights);
 

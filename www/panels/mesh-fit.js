@@ -15,8 +15,6 @@ import { patchesOfMesh } from '../views/patches.js';
 import { photoOfMesh } from '../views/photo.js';
 import { rulings } from '../views/rulings.js';
 import { sheetOfMesh } from '../views/sheet.js';
-import { offerSurface } from '../solid.js';
-import { offerSheets } from './sheets.js';
 
 /** @import {View} from './stage.js' */
 
@@ -82,11 +80,13 @@ export function meshFitPanel(session, meshFit, stage, heights) {
     },
     run: () => solve(),
     cancel: () => meshFit.cancel(),
-    saveFile: () => {
+    saveFile: async () => {
+      const { offerSurface } = await import('../solid.js');
       const { surface } = meshFit;
       if (surface) offerSurface(session.api, { stem: stem(), surface, positions: surface.positions, unit: surface.unit, onBase: false, mesh: async () => surface });
     },
-    cutSheets: () => {
+    cutSheets: async () => {
+      const { offerSheets } = await import('./sheets.js');
       const { surface } = meshFit;
       // The stage says why not.
       if (!surface) return closeDialogs();
@@ -105,7 +105,7 @@ export function meshFitPanel(session, meshFit, stage, heights) {
         cancelSolve: () => meshFit.cancel(),
         isFitted: fitted() !== null,
         solved: () => meshFit.next('result', 'failure', 'cancelled'),
-        again: () => whole.cutSheets(),
+        again: () => void whole.cutSheets(),
       });
     },
   };

@@ -6,11 +6,13 @@ import { offerSurface } from '../solid.js';
 import { latticePositions } from '../surface/lattice.js';
 import { offerSheets } from './sheets.js';
 
-/** Offers the result as a file: images have the pixels of the input, meshes the vertices of the lattice. @param {Api} api @param {Result} result */
-export async function offerFile(api, result) {
+/** Offers the result as a file: images have the pixels of the input, meshes the vertices of the lattice. @param {Session} session */
+export async function offerFile(session) {
   // The page itself has to start where the package is missing, to say so.
   const { IMAGE_FILES } = await import('../../pkg/schema/image-files.js');
   const imageFiles = /** @type {[import('../../pkg/schema/image-files.js').ImageFile, { type: string, about: string }][]} */ (Object.entries(IMAGE_FILES));
+  const { api, result } = session;
+  if (!result) return;
   const { surface, image } = result;
   offerSurface(api, {
     stem: fileStem(result), surface, positions: latticePositions(surface), unit: result.input.unit, onBase: true,
@@ -21,8 +23,10 @@ export async function offerFile(api, result) {
   });
 }
 
-/** Offers the result as sheets. @param {Session} session @param {Result} result @param {Analyses} analyses @param {() => void} again offers those of the next result */
-export function offerResultSheets(session, result, analyses, again) {
+/** Offers the result as sheets. @param {Session} session @param {Analyses} analyses @param {() => void} again offers those of the next result */
+export function offerResultSheets(session, analyses, again) {
+  const { result } = session;
+  if (!result) return;
   const hidden = result.input.lattice?.hidden;
   offerSheets(session.api, {
     stem: fileStem(result),

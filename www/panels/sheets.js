@@ -9,6 +9,7 @@ import { hasCode, plainMessage } from '../error-messages.js';
 import { SAVE_WORDS, SHEET_WORDS } from '../messages.js';
 import { PAPERS } from '../page/paper.js';
 import { edgeAt, parsePairs, togglePair } from '../sheet-edges.js';
+import { builtPicture } from '../surface/built-picture.js';
 import { figures } from '../views/legend.js';
 import { offerToSave } from './save-dialog.js';
 import { waitingPanel } from './waiting.js';
@@ -367,7 +368,7 @@ export function offerSheets(api, { stem, model, note = '', length, unit, up, cut
         write: async (worker) => worker.writePdf(await drawing, { stock: paper() || undefined, title: stem }) },
       { value: 'svg', name: 'SVG', words: SHEET_WORDS.svg, type: 'image/svg+xml', write: async (worker) => worker.writeSvg(await drawing, { title: stem }) },
       { value: 'dxf', name: 'DXF', words: SHEET_WORDS.dxf, type: 'image/vnd.dxf', write: async (worker) => worker.writeDxf(await drawing) },
-      { value: 'png', name: 'PNG', words: SHEET_WORDS.png, type: 'image/png', write: async () => (await import('../surface/built-picture.js')).builtPicture(await drawing, up) },
+      { value: 'png', name: 'PNG', words: SHEET_WORDS.png, type: 'image/png', write: async () => builtPicture(await drawing, up) },
       { value: 'glb', name: 'GLB', words: SHEET_WORDS.glb, type: 'model/gltf-binary', write: async () => assemblyOf(await drawing).model },
     ],
   });

@@ -4,7 +4,7 @@
  */
 import { download, element, elements, make, makeButton, oncePerFrame } from '../dom.js';
 import { choiceOf } from '../fields.js';
-import { VIEW_LABELS, VIEW_WORDS } from '../messages.js';
+import { SAVE_WORDS, VIEW_LABELS, VIEW_WORDS } from '../messages.js';
 import { PictureView } from '../surface/picture-view.js';
 import { SceneView } from '../surface/scene.js';
 import { colourBar, pictureWithColours } from '../views/legend.js';
@@ -33,8 +33,8 @@ import { waitingPanel } from './waiting.js';
  * @property {() => void} stop cancels the view that is being prepared
  * @property {() => void} run solves the input
  * @property {() => void} cancel cancels the solve
- * @property {() => void} saveFile offers the result as a 3D file
- * @property {() => void} cutSheets offers the result as sheets
+ * @property {() => Promise<void>} saveFile offers the result as a 3D file
+ * @property {() => Promise<void>} cutSheets offers the result as sheets
  */
 /** @typedef {(tell: Tell) => Promise<ViewContent>} View */
 /** @typedef {ReturnType<typeof stagePanel>} Stage */
@@ -247,8 +247,8 @@ export function stagePanel(first) {
     view?.drawSoon();
     download(await coloured.convertToBlob({ type: 'image/png' }), 'image/png', `${subject.name()}-view.png`);
   });
-  ends[0].addEventListener('click', () => subject.saveFile());
-  ends[1].addEventListener('click', () => subject.cutSheets());
+  // The dialogs are fetched when they are opened first.
+  for (const [i, offer] of /** @type {const} */ (['saveFile', 'cutSheets']).entries()) ends[i].addEventListener('click', () => subject[offer]().catch((error) => showError(SAVE_WORDS.noDialog, error)));
 
   const showSaid = () => {
     const [verdict, detail] = said.get(subject) ?? ['', ''];

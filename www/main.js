@@ -47,7 +47,7 @@ async function start() {
   reportPanel(session, analyses);
   headlinePanel(session, analyses, stage, heights);
   const source = sourcePanel(session, adopt, stage.choose, (files) => void addressSync.rememberFiles(files), meshFitView.begin, (file) => void files.openColour(file));
-  const page = pagePanel(session, (photos, shown) => void addressSync.rememberPhotos(photos, shown), (states, shown) => addressSync.rememberOutlines(states, shown));
+  const page = pagePanel(session, (photos, shown) => void addressSync.rememberPhotos(photos, shown), (states, shown) => void addressSync.rememberOutlines(states, shown));
   const mode = modePanel(session);
   const files = filesPanel(session, mode, source, page);
   const gallery = galleryPanel(session, { adopt, choose: stage.choose, strip: strip.show, enter: () => mode.show('heights'), expectsInput: () => addressSync.expectsInput });

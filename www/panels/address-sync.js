@@ -256,13 +256,14 @@ export function addressSyncPanel(session, page) {
       const stored = await photosStored;
       if (photos !== mine) return;
       [photoId, isUnstored] = [stored, mine.length > 0 && stored === undefined];
-      this.rememberOutlines(opened.map(({ state }) => state), shown);
+      void this.rememberOutlines(opened.map(({ state }) => state), shown);
       void updateRecentFiles();
       writeAddress();
     },
     /** Stores the outlines of the photos of pages that are open. @param {(PageState | null)[]} states @param {number} shown */
-    rememberOutlines(states, shown) {
-      if (photoId !== undefined) void storeOutlines({ id: photoId, states, shown });
+    async rememberOutlines(states, shown) {
+      const id = await photosStored;
+      if (id !== undefined) await storeOutlines({ id, states, shown });
     },
   };
 }

@@ -1,5 +1,5 @@
 /** The part of the page that makes photos of pages flat: opens photos and examples, and holds the panels of a photo. */
-import { element, SETTLING_MS } from '../dom.js';
+import { element } from '../dom.js';
 import { choiceOf } from '../fields.js';
 import { History } from '../history.js';
 import { Book, isSameBook } from '../page/book.js';
@@ -33,21 +33,21 @@ export function pagePanel(opener, onOpened, onChanged) {
   /** Created with the first photo. @type {PageSession | null} */
   let session = null;
   const book = new Book();
-  /** Number of the newest photo that was asked for, and a timer. */
-  let [newest, storeTimer] = [0, 0];
+  /** Number of the newest photo that was asked for. */
+  let newest = 0;
+  /** The photo that was opened last, whose changes are stored. @type {PagePhoto | null} */
+  let opened = null;
 
   const ensureSession = () => {
     if (session) return session;
     const created = (session = new PageSession(api));
-    created.on('changed', note);
+    created.on('changed', () => {
+      note();
+      if (created.photo === opened) onChanged(book.photos.map(({ state }) => state), book.index);
+    });
     pagePhotoPanel(created, history);
     pageKnownPanel(created, book);
     pageResultPanel(api, created, book, list.renew);
-    created.on('flat', ({ moving }) => {
-      if (moving || !created.photo?.file) return;
-      clearTimeout(storeTimer);
-      storeTimer = window.setTimeout(() => onChanged(book.photos.map(({ state }) => state), book.index), SETTLING_MS);
-    });
     return created;
   };
 
@@ -94,6 +94,7 @@ export function pagePanel(opener, onOpened, onChanged) {
     note();
     list.renew();
     onOpened(book.photos, at);
+    opened = session?.photo ?? null;
     return true;
   };
   /** @type {History<import('../page/book.js').BookState>} */

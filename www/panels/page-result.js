@@ -178,7 +178,7 @@ export function pageResultPanel(api, session, book, onWritten) {
           zipOf(Object.fromEntries((await flatBook(worker, signal)).map(({ picture, ending }, i) => [`${title}-${i + 1}.${ending}`, picture]))) })] : []),
         ...(found ? [/** @type {Format} */ ({ value: 'jpg', name: 'JPEG', words: FORMAT_WORDS.jpg, type: 'image/jpeg', write: writeImage('jpeg') }), /** @type {Format} */ ({ value: 'png', name: 'PNG', words: FORMAT_WORDS.png, type: 'image/png', write: writeImage('png') })] : []),
       ],
-      extra: [make('label', 'field for-pdf', SAVE_WORDS.paper(similar !== null && !measured ? SAVE_WORDS.papers[similar] : ''), paper), make('label', 'format for-pdf', text, SAVE_WORDS.searchable)],
+      extra: [make('label', 'field for-pdf', SAVE_WORDS.paper(similar !== null && !measured ? SAVE_WORDS.papers[similar] : ''), paper), make('label', 'check for-pdf', text, SAVE_WORDS.searchable)],
     });
     for (const field of [paper, text]) field.addEventListener('change', () => {
       wantsText = text.checked;

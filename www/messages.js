@@ -71,6 +71,7 @@ export const BATCH_WORDS = {
 export const DEPTH_WORDS = {
   /** @param {string} angle @param {number} scale */
   assumed: (angle, scale) => `${angle}° field of view, depths in ${scale === 1 ? 'metres' : scale === 0.001 ? 'millimetres' : `steps of ${number(scale)} m`}`,
+  disparities: ', not disparities as the name says (a depth is focal length × baseline ÷ disparity)',
   maybe: 'These may be depths from a camera. If so, build the 3D surface below. Now the page takes them for heights.',
   failed: 'The 3D surface could not be built',
   /** @param {import('../pkg/types.js').PhotoCamera} camera */

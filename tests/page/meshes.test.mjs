@@ -133,11 +133,11 @@ sharedDoorTest('depths from a camera are put where it has seen them', async (pag
   // A plane that recedes to the right: its depths are not linear over the image.
   const [width, height, focus, slope] = [80, 60, 70, 0.6];
   const depths = grid(width, height, (col) => 2000 / (1 - (slope * (col - (width - 1) / 2)) / focus));
-  await open(page, 'depth.npy', npy(width, depths));
+  await open(page, 'depth_disp.npy', npy(width, depths));
   // By its name they are depths: the surface is built by a guess, which is said as one.
-  await page.locator('#mesh-name', { hasText: 'depth (depths)' }).waitFor();
+  await page.locator('#mesh-name', { hasText: 'depth_disp (depths)' }).waitFor();
   await settled(page);
-  assert.match(await page.locator('#guessed').innerText(), /Assumed: 60° field of view, depths in millimetres/);
+  assert.match(await page.locator('#guessed').innerText(), /Assumed: 60° field of view, depths in millimetres, not disparities/);
   assert.match(await page.locator('#verdict').innerText(), /^From this side: /);
   await page.getByLabel('Field of view, °').fill('0');
   await page.getByRole('button', { name: 'Build the 3D surface' }).click();

@@ -64,8 +64,8 @@ test('where there are no rulings, it is said why', () => {
 
 test('a shape that a solve has lost is called lost', () => {
   const report = { passes: [], flipped: [0, 0], entangled: [], repairs: { turned: 0, degenerate: 0, repeated: 0, branched: 0 } };
-  const said = (/** @type {number} */ area) => meshFitSummary(/** @type {any} */ ({ report: { ...report, area: [200, area] } })).replaceAll('\u00a0', ' ');
-  assert.equal(said(190), '');
+  const said = (/** @type {number} */ area, changed = {}) => meshFitSummary(/** @type {any} */ ({ report: { ...report, ...changed, area: [200, area] } })).replaceAll('\u00a0', ' ');
+  assert.deepEqual([said(190), ...['gap', 'noNoise'].map((stopReason) => /folded over/.test(said(190, { flipped: [1, 1], stopReason })))], ['', true, false]);
   assert.equal(said(6), 'The shape is lost: 3 % of its area is left. Take a larger λ.');
 });
 

@@ -14,9 +14,7 @@ const KINK_ARM_SHARE = 0.07;
  * @param {readonly [upper: Point[], lower: Point[]]} edges around both pages, from left to right
  * @returns {[Point, Point]}
  */
-export function findGutter([upper, lower]) {
-  return [findKink(upper) ?? midpoint(upper), findKink(lower) ?? midpoint(lower)];
-}
+export const findGutter = ([upper, lower]) => [findKink(upper) ?? midpoint(upper), findKink(lower) ?? midpoint(lower)];
 
 /** The midpoint between the ends of an edge. @param {Point[]} line @returns {Point} */
 function midpoint(line) {

@@ -105,7 +105,7 @@ export function cameraPanel(session, openLoadedMesh) {
     const { name, width, height, data, photo } = input;
     const camera = presentCamera(input);
     const unit = input.depths ? { unit: /** @type {const} */ ('m') } : {};
-    const assumptions = isAssumed ? [{ code: 'camera', words: DEPTH_WORDS.assumed(number(fields.number('camera-angle')), fields.number('camera-scale')) }] : [];
+    const assumptions = isAssumed ? [{ code: 'camera', words: DEPTH_WORDS.assumed(number(fields.number('camera-angle')), fields.number('camera-scale')) + (/disp(?:arit|[^a-z]|$)/i.test(name) ? DEPTH_WORDS.disparities : '') }] : [];
     return openLoadedMesh({ name, kind: 'depths', photo, depthSource: input },
       (signal) => runInWorker(session.api, signal, async (worker) => ({ ...await worker.backProject({ width, height, data }, camera), ...unit, assumptions })),
       DEPTH_WORDS.failed, 'building');

@@ -38,7 +38,8 @@ export function meshFitSummary({ report }) {
     mended > 0 ? MESH_FIT_WORDS.repaired(mended) : '',
     branched > 0 ? MESH_FIT_WORDS.branched(branched) : '',
     entangled.length > 0 ? MESH_FIT_WORDS.entangled(entangled.length, entangled[0].position.map((at) => number(at, 3)).join(', ')) : '',
-    entangled.length === 0 && flipped[1] > 0 ? MESH_FIT_WORDS.flipped(flipped[1]) : '',
+    // Beside sharp edges a mesh as it is has triangles that face away from the mean of those around.
+    stopReason !== 'noNoise' && entangled.length === 0 && flipped[1] > 0 ? MESH_FIT_WORDS.flipped(flipped[1]) : '',
   ].filter(Boolean).join(' ');
 }
 
@@ -53,7 +54,7 @@ export function meshFacts({ unit, report: { border, components, sigma, lambda, s
     stopReason !== 'noNoise' && ['λ', number(lambda, 2)],
     ['Area', change(area, '²')],
     volume && ['Volume', change(volume, '³')],
-    flipped[0] + flipped[1] > 0 && ['Triangles folded over', `${count(flipped[0])} → ${count(flipped[1])}`],
+    stopReason !== 'noNoise' && flipped[0] + flipped[1] > 0 && ['Triangles folded over', `${count(flipped[0])} → ${count(flipped[1])}`],
   ];
   return /** @type {[string, string][]} */ (facts.filter(Boolean));
 }

@@ -50,4 +50,7 @@ test('the outline of a shown photo is kept when another one is put back before i
   book.photos.splice(0, 0, removed);
   book.saveState(session);
   assert.deepEqual(book.photos.map(({ state }) => state), [null, 'edited']);
+  book.addFiles([new File(['third'], 'c.jpg')]);
+  for (const i of [0, 2]) book.photos[i].problem = 'it is empty';
+  assert.deepEqual(book.problems(), ['“a.jpg” and “c.jpg”: it is empty']);
 });

@@ -183,8 +183,8 @@ doorTest('photos that are opened together become one PDF, each with its own outl
   await page.locator('#page-side[data-state="unfound"]').waitFor();
   // The others are saved from there, too.
   await page.getByRole('button', { name: 'Save the flat page…' }).click();
-  assert.match(await page.locator('#save-formats').innerText(), /^PDF 2 of 3 photos, a page each; no page in “none\.png”\s+ZIP [^\n]*$/);
-  await page.locator('#save-size', { hasText: /one-pages\.pdf, .*\. Without “none\.png”: I did not find its page/ }).waitFor();
+  assert.match(await page.locator('#save-formats').innerText(), /^PDF of all 3 photos that show a page\s+ZIP [^\n]*$/);
+  await page.locator('#save-size', { hasText: /one-pages\.pdf, .*\. Without “none\.png”: no page was found there/ }).waitFor();
   await page.locator('#save-dialog').evaluate((dialog) => /** @type {HTMLDialogElement} */ (dialog).close());
   await numbers.nth(1).click();
   await page.locator('#page-caption', { hasText: 'two' }).waitFor();

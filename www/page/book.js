@@ -107,14 +107,10 @@ export class Book {
     return pages;
   }
 
-  /** The photos that are known to have no page. */
-  get unfound() {
-    return this.photos.filter(({ state }) => state?.traces === null);
-  }
-
-  /** The photos that are left out, each with the reason. */
+  /** The photos that are left out, with each reason once. */
   problems() {
-    return this.photos.flatMap(({ file: { name }, problem }) => (problem ? [`“${name}”: ${problem}`] : []));
+    const reasons = new Set(this.photos.flatMap(({ problem }) => problem ?? []));
+    return Array.from(reasons, (reason) => BOOK_WORDS.without(this.photos.filter(({ problem }) => problem === reason).map(({ file }) => file.name), reason));
   }
 }
 

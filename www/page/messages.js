@@ -33,10 +33,11 @@ export const BOOK_WORDS = {
   /** @param {number} added @param {number} all */
   added: (added, all) => `${added === 1 ? 'The photo is' : `${count(added)} photos are`} added: ${count(all)} photos, one PDF.`,
   alone: 'Open it alone',
-  unfound: 'I did not find its page. Show this photo and drag the four corners onto the page',
+  unfound: 'no page was found there; show the photo, and drag the four corners onto the page',
+  /** @param {readonly string[]} names @param {string} reason */
+  without: (names, reason) => `${list.format(names.map((name) => `“${name}”`))}: ${reason}`,
   zip: 'a picture of each page',
-  /** @param {number} n @param {readonly string[]} without names of photos without a page */
-  pdf: (n, without) => (without.length > 0 ? `${n - without.length} of ${n} photos, a page each; no page in ${without.join(', ')}` : `${n === 2 ? 'both' : `all ${count(n)}`} photos, a page each`),
+  pdf: (/** @type {number} */ n) => `of ${n === 2 ? 'both' : `all ${count(n)}`} photos that show a page`,
   /** @param {number} n @param {number} all */
   writing: (n, all) => `Flattening photo ${n} of ${all}…`,
 };

@@ -169,7 +169,7 @@ export function pageResultPanel(api, session, book, onWritten) {
       title: 'Flat page',
       stem: `${wish.photo.name}-flat`,
       formats: [
-        { value: 'pdf', name: 'PDF', ...ofBook, words: several ? BOOK_WORDS.pdf(book.photos.length, book.unfound.map(({ file: { name } }) => `“${name}”`)) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker, signal) => {
+        { value: 'pdf', name: 'PDF', ...ofBook, words: several ? BOOK_WORDS.pdf(book.photos.length) : pages > 1 ? SAVE_WORDS.pdfOfTwo : SAVE_WORDS.pdf, type: 'application/pdf', write: async (worker, signal) => {
           if (several) return worker.writeBook(await flatBook(worker, signal, text.checked), { title });
           flat ??= await flattenWholePhoto(worker, wish, /** @type {DewarpedPage} */ (found));
           return worker.writeBook(await pictureFiles(worker, flat, pages, quarters, chosenPaper(), { ink: wish.options.ink, text: text.checked }), { title });

@@ -1324,7 +1324,10 @@ export interface SheetDrawing {
 export interface SimplifiedSurface {
   /** Number of the faces. */
   faces: number;
-  /** Root mean square distance of the surface's vertices from the faces, in millimetres. */
+  /**
+   * Root mean square distance of the surface's vertices from the faces: in the surface's unit, in drawings in
+   * millimetres.
+   */
   distance: number;
 }
 

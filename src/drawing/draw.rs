@@ -14,9 +14,9 @@ use super::pack::{Place, pack_rows};
 use super::pages::{Arranged, MAX_PAGES, Pages, Stock, arrange_on_pages, page_count};
 use super::sheet::DrawnSheet;
 use super::tabs::{SeamSides, swapped_tabs};
-use super::totals::{Simplified, Totals, summary};
+use super::totals::{Totals, summary};
 use crate::error::{Error, Result};
-use crate::pattern::{Missing, Sheet};
+use crate::pattern::{Pattern, Sheet};
 
 /// A drawing of sheets beside each other, in millimetres: the lower left corner is `0, 0`, `x` goes to the right
 /// and `y` up.
@@ -141,6 +141,22 @@ impl Drawing {
         })
     }
 
+    /// Draws the sheets of a pattern; the summary also says which part of the surface is on no sheet ([`Pattern::missing`]), and which
+    /// faces stand for it ([`Pattern::simplified`]).
+    ///
+    /// # Errors
+    /// The errors of [`Drawing::new`].
+    pub fn of(pattern: &Pattern, options: &DrawingOptions) -> Result<Self> {
+        let mut drawn = Drawing::new(&pattern.sheets, options)?;
+        let (mut missing, mut simplified) = (pattern.missing, pattern.simplified);
+        missing.area *= options.scale * options.scale;
+        missing.step_area *= options.scale * options.scale;
+        (simplified.iter_mut()).for_each(|simplified| simplified.distance *= options.scale);
+        drawn.summary.missing = Some(missing);
+        drawn.summary.simplified = simplified;
+        Ok(drawn)
+    }
+
     /// Arranges the drawing's sheets on pages of a material, on as few as a greedy search finds. A sheet lies whole on
     /// one page, rotated if it fits better; on paper, a sheet that is larger than a page is divided over several pages
     /// to be glued together.
@@ -176,24 +192,6 @@ impl Drawing {
             pages: Some(pages),
             summary: self.summary,
         })
-    }
-
-    /// Adds to the drawing's summary which part of the surface is on no sheet
-    /// ([`Pattern::missing`](crate::pattern::Pattern::missing)); `scale` is the drawing's scale, in millimetres per
-    /// unit.
-    pub fn missing(mut self, missing: &Missing, scale: f64) -> Self {
-        let mut missing = *missing;
-        missing.area *= scale * scale;
-        missing.step_area *= scale * scale;
-        self.summary.missing = Some(missing);
-        self
-    }
-
-    /// Adds to the drawing's summary how many flat faces stand for the surface
-    /// ([`simplified_faces`](crate::pattern::simplified_faces)), and how far they are from it, in millimetres.
-    pub fn simplified(mut self, faces: usize, distance: f64) -> Self {
-        self.summary.simplified = Some(Simplified { faces, distance });
-        self
     }
 
     /// Checks that a drawing is consistent, so that it can be written to a file; one that was read from a file may

@@ -52,4 +52,4 @@ pub use options::{DrawingOptions, MAX_SIZE};
 pub(crate) use pack::beside;
 pub use pages::{MAX_PAGES, Page, Pages, Stock};
 pub use sheet::{DrawnSheet, PrintedTriangle};
-pub use totals::{Simplified, Totals, WorstAngle, WorstJoint};
+pub use totals::{Totals, WorstAngle, WorstJoint};

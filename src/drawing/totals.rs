@@ -5,26 +5,11 @@ use std::collections::BTreeMap;
 
 use super::lines::Lines;
 use super::sheet::DrawnSheet;
-use crate::pattern::{Direction, Junction, Missing, Sheet};
+use crate::pattern::{Direction, Junction, Missing, Sheet, Simplified};
 
 /// Minimum length of a joint whose sides are compared, as a share of the side of a square with the area of all
 /// sheets.
 const MIN_COMPARED_JOINT_SHARE: f64 = 0.1;
-
-/// Flat faces that stand for a surface which is simplified.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(rename = "SimplifiedSurface")
-)]
-#[non_exhaustive]
-pub struct Simplified {
-    /// Number of the faces.
-    pub faces: usize,
-    /// Root mean square distance of the surface's vertices from the faces, in millimetres.
-    pub distance: f64,
-}
 
 /// Summary of a drawing: numbers of sheets, seams, folds, tabs and pages; total lengths in millimetres; strain and
 /// gaps.
@@ -86,10 +71,10 @@ pub struct Totals {
     /// [`PatternOptions::refold`](crate::pattern::PatternOptions::refold) was set.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub refolding: Option<f64>,
-    /// Part of the surface that is on no sheet, if it is known ([`Drawing::missing`](super::Drawing::missing));
+    /// Part of the surface that is on no sheet, if it is known ([`Drawing::of`](super::Drawing::of));
     /// areas in square millimetres.
     pub missing: Option<Missing>,
-    /// The flat faces that stand for the surface, if it was simplified ([`Drawing::simplified`](super::Drawing::simplified)).
+    /// The flat faces that stand for the surface, if it was simplified ([`Drawing::of`](super::Drawing::of)).
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub simplified: Option<Simplified>,
     /// Number of pages of A4 paper that the drawing takes.

@@ -6,6 +6,9 @@
 //! longest seams first; such a seam is a fold if it is a crease, every other one a cut. Around a vertex where the angles make up
 //! a full turn, all creases are folds.
 //!
+//! That is what [`pattern`] does with heights and [`pattern_mesh`] with a mesh; [`pattern_exact`] lays flat faces flat as they are.
+//! [`lay_flat`] takes any surface, and the way that suits it.
+//!
 //! ```
 //! use developable::patches::{PatchOptions, Patches};
 //! use developable::pattern::{Direction, PatternOptions, pattern};
@@ -29,6 +32,7 @@ mod exact;
 mod faces;
 mod flat_mesh;
 mod label_spot;
+mod lay_flat;
 mod options;
 mod sheets;
 mod smooth_creases;
@@ -37,12 +41,13 @@ mod surface_mesh;
 
 pub use crate::scene::exactness::MAX_FEW_FACES;
 pub use exact::{
-    FoundFaces, MeshKind, NetOptions, SheetMetal, noisy_faces, pattern_exact, rolled_faces,
-    sheet_metal, simplified_faces,
+    FoundFaces, MeshKind, NetOptions, RecognizedMesh, SheetMetal, pattern_exact, sheet_metal,
 };
 pub use faces::Faces;
+pub use lay_flat::{FlatOptions, Shape, lay_flat};
 pub use options::PatternOptions;
 pub use sheets::{
-    Bend, Direction, Fold, Junction, Missing, Pattern, Refolding, Run, Seam, Sheet, Spot,
+    Bend, Direction, Fold, Junction, Missing, Pattern, Refolding, Run, Seam, Sheet, Simplified,
+    Spot,
 };
 pub use surface::{pattern, pattern_mesh};

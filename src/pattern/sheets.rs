@@ -17,6 +17,23 @@ pub struct Pattern {
     pub creases: Vec<Crease>,
     /// Vertices, area and steps of the surface that are on no sheet.
     pub missing: Missing,
+    /// The flat faces that stand for the surface, if it was simplified.
+    pub simplified: Option<Simplified>,
+}
+
+/// Flat faces that stand for a surface which is simplified.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename = "SimplifiedSurface")
+)]
+#[non_exhaustive]
+pub struct Simplified {
+    /// Number of the faces.
+    pub faces: usize,
+    /// Root mean square distance of the surface's vertices from the faces: in the surface's unit, in drawings in millimetres.
+    pub distance: f64,
 }
 
 /// What of a surface is on no sheet: vertices that were left out, and steps, with their areas in the surface's units.

@@ -41,14 +41,17 @@ pub(crate) fn decimate(solid: &Polyhedron, max_triangles: usize) -> Decimated {
         .map(|(side, _)| Reverse(left.candidate(half_edge_ends(&solid.triangles, side))))
         .collect();
     while left.count > max_triangles
-        && let Some(Reverse(next)) = queue.pop()
+        && let Some(Reverse((_, ends, ages))) = queue.pop()
     {
-        let is_current = next.ends.map(|v| left.ages[v as usize]) == next.ages;
-        if !is_current || !left.may_contract(&next) {
+        if left.ages_of(ends) != ages {
             continue;
         }
-        left.contract(&next);
-        let [kept, _] = next.ends;
+        let (_, place) = left.least(ends);
+        if !left.may_contract(ends, place) {
+            continue;
+        }
+        left.contract(ends, place);
+        let [kept, _] = ends;
         queue.extend(
             (left.neighbours(kept).into_iter()).map(|v| Reverse(left.candidate([kept, v]))),
         );
@@ -57,7 +60,7 @@ pub(crate) fn decimate(solid: &Polyhedron, max_triangles: usize) -> Decimated {
 }
 
 /// Squared distances from planes, as a function of the place: `x'Ax + 2 b'x + c`.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Quadric {
     a: Matrix3<f64>,
     b: Place,
@@ -65,12 +68,6 @@ struct Quadric {
 }
 
 impl Quadric {
-    const ZERO: Quadric = Quadric {
-        a: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-        b: Place::new(0.0, 0.0, 0.0),
-        c: 0.0,
-    };
-
     /// The squared distance from a plane through a place.
     fn of_plane(normal: Place, through: &Place, weight: f64) -> Quadric {
         let offset = -normal.dot(through);
@@ -110,41 +107,9 @@ impl Quadric {
     }
 }
 
-/// An edge that may be contracted, and the place to which its ends would go.
-struct Candidate {
-    cost: f64,
-    ends: [u32; 2],
-    /// How often each end had been contracted when the cost was computed.
-    ages: [u32; 2],
-    place: Place,
-}
-
-impl Candidate {
-    /// The order of candidates; costs are never below 0, where the bits of a number are in its own order.
-    fn rank(&self) -> (u64, [u32; 2]) {
-        (self.cost.to_bits(), self.ends)
-    }
-}
-
-impl PartialEq for Candidate {
-    fn eq(&self, other: &Self) -> bool {
-        self.rank() == other.rank()
-    }
-}
-
-impl Eq for Candidate {}
-
-impl PartialOrd for Candidate {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Candidate {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.rank().cmp(&other.rank())
-    }
-}
+/// An edge that may be contracted: the bits of its cost, which is never below 0, so that they are in its own order; its ends; and how
+/// often each end had been contracted when the cost was computed.
+type Candidate = (u64, [u32; 2], [u32; 2]);
 
 /// A mesh of which some edges have been contracted.
 struct Contraction {
@@ -176,7 +141,7 @@ impl Contraction {
             places: (solid.places.iter().map(|place| (place - middle) / unit)).collect(),
             triangles: solid.triangles.clone(),
             around: vec![Vec::new(); n],
-            quadrics: vec![Quadric::ZERO; n],
+            quadrics: vec![Quadric::default(); n],
             on_border: vec![false; n],
             ages: vec![0; n],
             became: (0..n as u32).collect(),
@@ -230,26 +195,30 @@ impl Contraction {
         found
     }
 
-    fn candidate(&self, ends: [u32; 2]) -> Candidate {
+    /// Cost of contracting an edge, and the place to which its ends would go.
+    fn least(&self, ends: [u32; 2]) -> (f64, Place) {
         let [p, q] = ends.map(|v| self.place(v));
         let sum = self.quadrics[ends[0] as usize].plus(&self.quadrics[ends[1] as usize]);
         let place = sum.least(0.5 * (p + q));
-        let cost = sum.at(&place) + LENGTH_WEIGHT * sum.a.trace() * (q - p).norm_squared();
-        Candidate {
-            cost,
-            ends,
-            ages: ends.map(|v| self.ages[v as usize]),
-            place,
-        }
+        let length = LENGTH_WEIGHT * sum.a.trace() * (q - p).norm_squared();
+        (sum.at(&place) + length, place)
+    }
+
+    fn ages_of(&self, ends: [u32; 2]) -> [u32; 2] {
+        ends.map(|v| self.ages[v as usize])
+    }
+
+    fn candidate(&self, ends: [u32; 2]) -> Candidate {
+        (self.least(ends).0.to_bits(), ends, self.ages_of(ends))
     }
 
     /// Whether the mesh stays a surface of the same connections, and no triangle folds over.
-    fn may_contract(&self, next: &Candidate) -> bool {
-        let [a, b] = next.ends;
+    fn may_contract(&self, ends: [u32; 2], place: Place) -> bool {
+        let [a, b] = ends;
         let is_shared = |t: &&u32| self.triangles[**t as usize].contains(&b);
         let shared: Vec<u32> =
             (self.around[a as usize].iter().filter(is_shared).copied()).collect();
-        let [around, others] = next.ends.map(|v| self.neighbours(v));
+        let [around, others] = ends.map(|v| self.neighbours(v));
         let common = around.iter().filter(|v| others.contains(v)).count();
         let joins_borders =
             self.on_border[a as usize] && self.on_border[b as usize] && shared.len() != 1;
@@ -266,11 +235,11 @@ impl Contraction {
         {
             return false;
         }
-        let moved = |v: u32| match next.ends.contains(&v) {
-            true => next.place,
+        let moved = |v: u32| match ends.contains(&v) {
+            true => place,
             false => self.place(v),
         };
-        let others = next.ends.iter().flat_map(|v| &self.around[*v as usize]);
+        let others = ends.iter().flat_map(|v| &self.around[*v as usize]);
         others.filter(|t| !shared.contains(t)).all(|t| {
             let [before, after] = [
                 self.area_vector(*t, |v| self.place(v)),
@@ -280,8 +249,8 @@ impl Contraction {
         })
     }
 
-    fn contract(&mut self, next: &Candidate) {
-        let [kept, gone] = next.ends.map(|v| v as usize);
+    fn contract(&mut self, ends: [u32; 2], place: Place) {
+        let [kept, gone] = ends.map(|v| v as usize);
         for t in std::mem::take(&mut self.around[gone]) {
             let corners = &mut self.triangles[t as usize];
             if corners.contains(&(kept as u32)) {
@@ -297,7 +266,7 @@ impl Contraction {
         }
         self.quadrics[kept] = self.quadrics[kept].plus(&self.quadrics[gone]);
         self.on_border[kept] |= self.on_border[gone];
-        self.places[kept] = next.place;
+        self.places[kept] = place;
         self.ages[kept] += 1;
         self.ages[gone] += 1;
         self.became[gone] = kept as u32;

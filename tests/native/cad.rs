@@ -3,16 +3,21 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use developable::drawing::{Bending, Drawing, DrawingOptions};
-use developable::pattern::{MeshKind, NetOptions, Pattern, pattern_exact, sheet_metal};
+use developable::pattern::{
+    FlatOptions, MeshKind, NetOptions, Pattern, RecognizedMesh, Shape, lay_flat, pattern_exact,
+    sheet_metal,
+};
 use developable::{Exactness, Mesh};
 
 /// The pattern of a mesh whose kind is recognised, and whether bends of it were divided.
 fn pattern_of(mesh: &Mesh) -> (Pattern, bool) {
-    match MeshKind::of(mesh).unwrap() {
-        MeshKind::Faces => (pattern_exact(mesh, &NetOptions::default()).unwrap(), false),
-        MeshKind::Bends(faces) => (faces.pattern(&NetOptions::default()).unwrap(), true),
-        _ => panic!("a part has exact faces"),
-    }
+    let kind = RecognizedMesh::of(mesh).unwrap().kind;
+    assert!(
+        [MeshKind::Faces, MeshKind::Bends].contains(&kind),
+        "a part has exact faces"
+    );
+    let pattern = lay_flat(Shape::Mesh(mesh), &FlatOptions::default()).unwrap();
+    (pattern, kind == MeshKind::Bends)
 }
 
 fn length_of(line: &[[f64; 2]]) -> f64 {
@@ -153,7 +158,7 @@ fn balls_are_no_cones() {
         (20.0 * angle.sin(), radius, 24 + 5 * (k % 3))
     };
     let mesh = turned(&(0..=12).map(row).collect::<Vec<_>>());
-    assert!(!matches!(MeshKind::of(&mesh).unwrap(), MeshKind::Bends(_)));
+    assert_ne!(RecognizedMesh::of(&mesh).unwrap().kind, MeshKind::Bends);
 }
 
 /// The solid of a strip of metal with these flat lengths between bends of a right angle, alternating to either side, in `steps` facets

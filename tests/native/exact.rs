@@ -7,7 +7,9 @@ use crate::math::planar::distance_to_segment;
 use crate::native::common::Random;
 use developable::drawing::{Bending, Drawing, DrawingOptions, Label, LabelKind};
 use developable::files::drawings::{PdfOptions, TextureFile, write_dxf, write_pdf, write_svg};
-use developable::pattern::{MeshKind, NetOptions, Pattern, Sheet, pattern_exact, sheet_metal};
+use developable::pattern::{
+    MeshKind, NetOptions, Pattern, RecognizedMesh, Sheet, pattern_exact, sheet_metal,
+};
 use developable::{Exactness, Lambda, Mesh, MeshOptions, StopReason, fit_mesh};
 
 fn seam_length(pattern: &Pattern) -> f64 {
@@ -790,7 +792,9 @@ fn no_text_lies_on_a_line_or_on_another_text() {
 #[test]
 fn models_of_few_faces_are_built_face_by_face_however_little_these_fold() {
     let kind = |points: Vec<[f64; 3]>, triangles: Vec<[u32; 3]>| {
-        MeshKind::of(&Mesh::new(points, triangles).unwrap()).unwrap()
+        RecognizedMesh::of(&Mesh::new(points, triangles).unwrap())
+            .unwrap()
+            .kind
     };
     // Squares of a saddle, no four of whose corners lie in a plane, and the same with a tenth of their size of noise.
     let saddle = |n: u32, noise: f64| {
@@ -807,9 +811,9 @@ fn models_of_few_faces_are_built_face_by_face_however_little_these_fold() {
         let triangles = squares.flat_map(|a| [[a, a + 1, a + n + 1], [a, a + n + 1, a + n]]);
         kind((0..n * n).map(point).collect(), triangles.collect())
     };
-    assert!(matches!(saddle(10, 0.0), MeshKind::Faces));
-    assert!(matches!(saddle(10, 0.1), MeshKind::Faces));
-    assert!(matches!(saddle(20, 0.1), MeshKind::Noisy));
+    assert_eq!(saddle(10, 0.0), MeshKind::Faces);
+    assert_eq!(saddle(10, 0.1), MeshKind::Faces);
+    assert_eq!(saddle(20, 0.1), MeshKind::Noisy);
     // An open pyramid of many sides, whose tip bends by more than all other vertices together.
     let sides = 14u32;
     let mut points = vec![[0.0, 0.0, 60.0]];
@@ -818,7 +822,7 @@ fn models_of_few_faces_are_built_face_by_face_however_little_these_fold() {
         [20.0 * cos, 20.0 * sin, 0.0]
     }));
     let triangles = (0..sides).map(|k| [0, 1 + k, 1 + (k + 1) % sides]);
-    assert!(matches!(kind(points, triangles.collect()), MeshKind::Faces));
+    assert_eq!(kind(points, triangles.collect()), MeshKind::Faces);
 }
 
 /// What rounding in a file bends a quad by is no fold that anybody makes.

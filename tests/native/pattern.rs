@@ -3,7 +3,10 @@
 use crate::native::common::unit_square;
 use developable::drawing::{Drawing, DrawingOptions};
 use developable::patches::{PatchOptions, Patches};
-use developable::pattern::{Direction, Pattern, PatternOptions, Run, Sheet, pattern};
+use developable::pattern::{
+    Direction, FlatOptions, MAX_FEW_FACES, NetOptions, Pattern, PatternOptions, Run, Shape, Sheet,
+    lay_flat, pattern,
+};
 use developable::{Example, ExampleOptions, Heightfield, Lattice, Options, fit};
 
 fn pattern_of(surface: &Heightfield) -> Pattern {
@@ -480,6 +483,34 @@ fn what_no_cut_makes_flat_is_refused_with_its_place() {
     let error = pattern(&rough, &patches, &PatternOptions::default()).unwrap_err();
     assert_eq!(error.code(), "NOT_FLAT", "{error}");
     assert!(error.to_string().contains("limit of 1 %"), "{error}");
+    // Flat faces can be: they stand for it, unless that is not wanted.
+    let surface = Shape::Heights(&rough);
+    let found = lay_flat(surface, &FlatOptions::default()).unwrap();
+    let faces = found.simplified.expect("flat faces").faces;
+    assert!((1..=MAX_FEW_FACES).contains(&faces), "{faces}");
+    assert!(found.sheets.iter().all(|sheet| sheet.exact));
+    let none = FlatOptions {
+        faces: Some(0),
+        ..FlatOptions::default()
+    };
+    assert_eq!(lay_flat(surface, &none).unwrap_err(), error);
+    let few = FlatOptions {
+        faces: Some(20),
+        ..FlatOptions::default()
+    };
+    let fewer = lay_flat(surface, &few).unwrap().simplified.unwrap();
+    assert!(fewer.faces <= 20, "{fewer:?}");
+    assert!(fewer.distance > 0.0 && fewer.distance < 0.2, "{fewer:?}");
+    // A person decides about edges of flat faces alone.
+    let decided = FlatOptions {
+        net: NetOptions {
+            cut: vec![[0, 1]],
+            ..NetOptions::default()
+        },
+        ..FlatOptions::default()
+    };
+    let error = lay_flat(surface, &decided).unwrap_err();
+    assert_eq!(error.code(), "OPTION", "{error}");
 }
 
 /// What is cut, as pairs of the lengths on both sides, by the crease.

@@ -3,13 +3,22 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use developable::pattern::{NetOptions, noisy_faces, rolled_faces};
+use developable::pattern::{FoundFaces, MeshKind, NetOptions, RecognizedMesh};
 use developable::{Exactness, Mesh};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::closed_meshes::cube;
 use crate::native::common::Random;
 use crate::native::common::irregular::Tessellation;
+
+fn faces_of(mesh: &Mesh, kind: MeshKind) -> Option<FoundFaces> {
+    let found = RecognizedMesh::of(mesh).unwrap();
+    found.faces.filter(|_| found.kind == kind)
+}
+
+fn noisy_faces(mesh: &Mesh) -> Option<FoundFaces> {
+    faces_of(mesh, MeshKind::NoisyFaces)
+}
 
 /// A roof over 12 × 8: its name, the number of its faces, and its height at a place.
 type Roof = (&'static str, usize, fn(f64, f64) -> f64);
@@ -60,7 +69,7 @@ fn scan(roof: Roof, triangles: Tessellation, side: usize, noise: f64, seed: u64)
 fn roofs_with_noise_have_their_faces() {
     for roof in ROOFS {
         let mesh = scan(roof, Tessellation::Regular, 60, 0.01, 7);
-        let found = noisy_faces(&mesh).unwrap().expect(roof.0);
+        let found = noisy_faces(&mesh).expect(roof.0);
         assert_eq!(found.count, roof.1, "{}", roof.0);
         assert!(
             (0.005..0.01).contains(&found.noise),
@@ -102,7 +111,7 @@ fn a_gable_with_noise_is_one_sheet_with_one_straight_fold_wherever_it_stands() {
         .collect();
     let far = Mesh::new(far, mesh.triangles().to_vec()).unwrap();
     let sheets = [&mesh, &far].map(|mesh| {
-        let found = noisy_faces(mesh).unwrap().unwrap();
+        let found = noisy_faces(mesh).unwrap();
         let sheets = found.pattern(&NetOptions::default()).unwrap().sheets;
         let [sheet] = &sheets[..] else {
             panic!("{} sheets", sheets.len());
@@ -139,7 +148,7 @@ fn a_closed_box_with_noise_has_six_faces_though_no_vertex_lies_on_its_edges() {
         (along * far + Vector3::from([0, 1, 2].map(|_| 0.2 * random.normal()))).into()
     });
     let mesh = Mesh::new(points.collect(), ball.triangles().to_vec()).unwrap();
-    let found = noisy_faces(&mesh).unwrap().expect("a box");
+    let found = noisy_faces(&mesh).expect("a box");
     assert_eq!(found.count, 6);
     let pattern = found.pattern(&NetOptions::default()).unwrap();
     let [sheet] = &pattern.sheets[..] else {
@@ -167,7 +176,7 @@ fn walls_that_are_partly_round_and_steps_have_no_faces() {
         ("stairs", 0, |x, _| (x / 2.95).floor()),
     ];
     for roof in mixed {
-        let found = noisy_faces(&scan(roof, Tessellation::Regular, 60, 0.003, 3)).unwrap();
+        let found = noisy_faces(&scan(roof, Tessellation::Regular, 60, 0.003, 3));
         assert!(found.is_none(), "{}", roof.0);
     }
 }
@@ -177,7 +186,7 @@ fn smooth_surfaces_with_noise_have_no_faces() {
     for roof in BENT {
         for (seed, triangles) in (0..).zip(Tessellation::ALL) {
             for (side, noise) in [(20, 0.003), (40, 0.01), (40, 0.03)] {
-                let found = noisy_faces(&scan(roof, triangles, side, noise, seed)).unwrap();
+                let found = noisy_faces(&scan(roof, triangles, side, noise, seed));
                 let faces = found.map(|found| (found.count, found.noise));
                 assert!(
                     faces.is_none(),
@@ -239,7 +248,7 @@ fn bends_in_any_triangles_have_parallel_lines_and_the_blank_that_they_were_bent_
             Exactness::Vertices,
             "{bends:?} {hole}"
         );
-        let found = rolled_faces(&mesh).expect("a bent sheet");
+        let found = faces_of(&mesh, MeshKind::Bends).expect("a bent sheet");
         let sheets = found.pattern(&NetOptions::default()).unwrap().sheets;
         let [sheet] = &sheets[..] else {
             panic!("{} sheets", sheets.len());
@@ -284,6 +293,6 @@ fn bends_in_any_triangles_have_parallel_lines_and_the_blank_that_they_were_bent_
 fn what_is_bent_otherwise_has_no_rolled_faces() {
     for roof in &BENT[2..] {
         let mesh = scan(*roof, Tessellation::Regular, 30, 0.0, 3);
-        assert!(rolled_faces(&mesh).is_none(), "{}", roof.0);
+        assert!(faces_of(&mesh, MeshKind::Bends).is_none(), "{}", roof.0);
     }
 }

@@ -77,6 +77,7 @@ pub(super) fn draw_sheets(
         patches,
         creases: seams.all.iter().map(crease).collect(),
         missing,
+        simplified: None,
     })
 }
 

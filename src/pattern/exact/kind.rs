@@ -8,46 +8,76 @@ use crate::scene::exactness::{Exactness, has_few_faces};
 use crate::scene::mesh::Mesh;
 use crate::scene::polyhedron::Polyhedron;
 
-/// What a mesh is, and the faces that were found in it. Each kind is laid flat in its own way.
+/// What a mesh is, of what a fit gains.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "camelCase")
+)]
+#[non_exhaustive]
 pub enum MeshKind {
-    /// The faces of the mesh are exact, or few: [`pattern_exact`](super::pattern_exact) lays them flat.
+    /// Its faces are exact, as in CAD and low-poly models, or few, and are moved into the plane as they are.
     Faces,
-    /// The vertices of the mesh have noise about flat faces.
-    NoisyFaces(FoundFaces),
-    /// The vertices of the mesh are exact, and lie on flat faces, walls of any profile, cylinders and circular cones.
-    Bends(FoundFaces),
-    /// The vertices of the mesh are exact, those of a smooth surface.
+    /// As `faces`, but some of its bends are triangulated irregularly, and are divided along their lines first.
+    Bends,
+    /// Its vertices have noise about flat faces, as in scans of roofs and boxes; the faces are laid flat without it.
+    NoisyFaces,
+    /// Its vertices have no noise, so that a fit gains nothing, but it is no part of planes, cylinders and cones.
     Surface,
-    /// The vertices of the mesh have noise: it is to be fitted first.
+    /// Its vertices have noise.
+    #[default]
     Noisy,
 }
 
-impl MeshKind {
-    /// Recognises a mesh; costs what [`noisy_faces`] and [`rolled_faces`](super::rolled_faces) cost.
+/// What a mesh is, and the faces that were found in it.
+#[derive(Default)]
+#[non_exhaustive]
+pub struct RecognizedMesh {
+    /// Whether a fit gains anything, and how the mesh is laid flat without one.
+    pub kind: MeshKind,
+    /// The faces that stand for the mesh, of [`MeshKind::Bends`] and [`MeshKind::NoisyFaces`].
+    pub faces: Option<FoundFaces>,
+}
+
+impl From<MeshKind> for RecognizedMesh {
+    fn from(kind: MeshKind) -> RecognizedMesh {
+        RecognizedMesh { kind, faces: None }
+    }
+}
+
+impl RecognizedMesh {
+    /// Recognises a mesh. Costs `O(triangles · log(triangles))`, and `O(triangles)` for each bend.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub fn of(mesh: &Mesh) -> Result<MeshKind> {
+    pub fn of(mesh: &Mesh) -> Result<RecognizedMesh> {
         let Ok(solid) = Polyhedron::new(mesh) else {
-            return Ok(MeshKind::Noisy);
+            return Ok(RecognizedMesh::default());
         };
         let exactness = Exactness::of_solid(&solid);
         let known = match has_few_faces(&solid) {
             true => Exactness::Faces,
             false => exactness,
         };
-        let rolled = divided_bends(&solid, known);
-        if rolled.is_none()
-            && exactness == Exactness::None
+        let with_faces = |kind, faces| {
+            Ok(RecognizedMesh {
+                kind,
+                faces: Some(faces),
+            })
+        };
+        if let Some(divided) = divided_bends(&solid, known) {
+            return with_faces(MeshKind::Bends, divided);
+        }
+        if exactness == Exactness::None
             && let Some(found) = noisy_faces(mesh)?
         {
-            return Ok(MeshKind::NoisyFaces(found));
+            return with_faces(MeshKind::NoisyFaces, found);
         }
-        Ok(match (rolled, known) {
-            (Some(found), _) => MeshKind::Bends(found),
-            (None, Exactness::Faces) => MeshKind::Faces,
-            (None, Exactness::Vertices) => MeshKind::Surface,
-            (None, Exactness::None) => MeshKind::Noisy,
-        })
+        Ok(RecognizedMesh::from(match known {
+            Exactness::Faces => MeshKind::Faces,
+            Exactness::Vertices => MeshKind::Surface,
+            Exactness::None => MeshKind::Noisy,
+        }))
     }
 }

@@ -17,18 +17,16 @@ mod search;
 mod sheets;
 mod straight;
 
-use super::sheets::Pattern;
+use super::sheets::{Pattern, Simplified};
 use crate::error::{Error, Result};
 use crate::scene::decimation::decimate;
 use crate::scene::mesh::Mesh;
 use crate::scene::polyhedron::Polyhedron;
 pub use metal::{SheetMetal, sheet_metal};
 use net::{EdgeChoices, Net};
-pub use noisy::noisy_faces;
 use patches::FlatPatches;
 
-pub use kind::MeshKind;
-pub use rolled::rolled_faces;
+pub use kind::{MeshKind, RecognizedMesh};
 
 /// Options of a net: the room for its sheets, and edges that a person decides about.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -75,20 +73,26 @@ impl FoundFaces {
     }
 }
 
-/// Simplifies a mesh to at most so many flat faces, by contracting edges (Garland and Heckbert 1997), whether or not it has noise:
-/// any shape can be built so. The faces are more only where fewer would not leave the surface's connections as they are, as those of a
-/// mesh of many parts. Costs `O(triangles · log(triangles))`.
+/// Simplifies a mesh to at most so many flat faces, by contracting edges (Garland and Heckbert 1997), whether or not it has noise, and
+/// lays these flat: any shape can be built so. The faces are more only where fewer would not leave the surface's connections as they are,
+/// as those of a mesh of many parts. Costs `O(triangles · log(triangles))` beside the search of [`pattern_exact`].
 ///
 /// # Errors
-/// [`Error::Unsupported`](crate::Error::Unsupported) if the triangles have no area.
-pub fn simplified_faces(mesh: &Mesh, max_faces: usize) -> Result<FoundFaces> {
+/// The errors of [`pattern_exact`].
+pub(super) fn pattern_simplified(
+    mesh: &Mesh,
+    max_faces: usize,
+    options: &NetOptions,
+) -> Result<Pattern> {
     let found = decimate(&Polyhedron::new(mesh)?, max_faces);
     let places = found.places.iter().map(|place| (*place).into()).collect();
     let solid = Polyhedron::new(&Mesh::new(places, found.triangles)?)?;
-    Ok(FoundFaces {
-        count: solid.areas.len(),
-        noise: found.distance,
-        solid,
+    Ok(Pattern {
+        simplified: Some(Simplified {
+            faces: solid.areas.len(),
+            distance: found.distance,
+        }),
+        ..pattern_of(&solid, options)?
     })
 }
 

@@ -39,7 +39,7 @@ const MIN_BORDER_EDGES: usize = 4;
 ///
 /// # Errors
 /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-pub fn noisy_faces(mesh: &Mesh) -> Result<Option<FoundFaces>> {
+pub(super) fn noisy_faces(mesh: &Mesh) -> Result<Option<FoundFaces>> {
     let Ok(mut solid) = Polyhedron::new(mesh) else {
         return Ok(None);
     };

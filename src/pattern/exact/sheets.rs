@@ -92,6 +92,7 @@ pub(super) fn draw(solid: &Polyhedron, net: &Net, patches: &FlatPatches) -> Resu
         patches: counted.into_iter().zip(&patches.areas).map(patch).collect(),
         creases,
         missing: Missing::default(),
+        simplified: None,
     })
 }
 

@@ -5,20 +5,20 @@ use serde::{Deserialize, Serialize};
 use serde_wasm_bindgen::{from_value, preserve, to_value};
 use wasm_bindgen::prelude::*;
 
+use developable::Mesh;
 use developable::assembly::Assembly;
 use developable::drawing::{Bending, Drawing, DrawingOptions, Stock};
 use developable::explore::Trials;
 use developable::files::Unit;
 use developable::files::assembly::{write_animation, write_assembly_svg};
 use developable::files::drawings::{PdfOptions, TextureFile, write_dxf, write_pdf, write_svg};
-use developable::patches::{Crease, MeshPatches, Patch, PatchOptions, Patches};
+use developable::patches::{Crease, MeshPatches, Patch, PatchOptions};
 use developable::pattern::{
-    MAX_FEW_FACES, MeshKind, Missing, NetOptions, Pattern, PatternOptions, Sheet, pattern,
-    pattern_exact, pattern_mesh, sheet_metal, simplified_faces,
+    FlatOptions, MeshKind, Missing, NetOptions, Pattern, PatternOptions, RecognizedMesh, Shape,
+    Sheet, lay_flat, pattern_mesh, sheet_metal,
 };
 use developable::progress;
 use developable::unroll::UnrollOptions;
-use developable::{Frame, Mesh, Triangulation};
 use developable_wasm::mesh::MeshInput;
 use developable_wasm::options::{OptionReader, read};
 use developable_wasm::scene::{Scene, check_spacing, is_image};
@@ -147,44 +147,17 @@ impl Wanted {
         Some(sides)
     }
 
-    /// Draws sheets of a pattern; returns JavaScript's `Drawing` object, with the assembly if it is wanted.
-    fn draw(&self, sheets: &[Sheet], missing: &Missing) -> Result<JsValue> {
-        let drawn = Drawing::new(sheets, &self.drawing)?;
-        self.put_on_stock(sheets, drawn.missing(missing, self.drawing.scale))
-    }
-
-    /// Draws a pattern, likewise, or, where no cut lays the surface flat, flat faces that stand for it.
-    fn draw_found(
-        &self,
-        found: Result<Pattern>,
-        mesh: impl FnOnce() -> Result<Mesh>,
-    ) -> Result<JsValue> {
-        match found {
-            Err(Failure {
-                code: "NOT_FLAT", ..
-            }) if self.own.faces.is_none() => self.draw_simplified(&mesh()?, MAX_FEW_FACES),
-            found => {
-                let found = found?;
-                self.draw(&found.sheets, &found.missing)
-            }
-        }
-    }
-
-    /// Number of flat faces that are to stand for the surface.
-    fn few_faces(&self) -> Option<usize> {
-        self.own.faces.filter(|faces| *faces > 0)
-    }
-
-    /// Draws flat faces that stand for a surface, likewise.
-    fn draw_simplified(&self, mesh: &Mesh, max_faces: usize) -> Result<JsValue> {
-        let faces = simplified_faces(mesh, max_faces)?;
-        let found = faces.pattern(&self.net_options())?;
-        let drawn = Drawing::new(&found.sheets, &self.drawing)?;
-        let drawn = drawn.simplified(faces.count, faces.noise * self.drawing.scale);
-        self.put_on_stock(&found.sheets, drawn)
-    }
-
-    fn put_on_stock(&self, sheets: &[Sheet], drawn: Drawing) -> Result<JsValue> {
+    /// Lays a surface flat and draws its sheets; returns JavaScript's `Drawing` object, with the assembly if it is wanted.
+    fn draw(&self, surface: Shape) -> Result<JsValue> {
+        let options = FlatOptions {
+            patches: self.patches,
+            sheets: self.sheets,
+            net: self.net_options(),
+            exact: self.own.exact,
+            faces: self.own.faces,
+        };
+        let found = lay_flat(surface, &options)?;
+        let (drawn, sheets) = (Drawing::of(&found, &self.drawing)?, &found.sheets);
         let drawn = match self.own.stock {
             Some(stock) => drawn.onto(stock)?,
             None => drawn,
@@ -215,13 +188,7 @@ pub fn draw_pattern(field: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted = Wanted::of(&field, &options)?;
     check_spacing(wanted.own.spacing, is_image(&field)?)?;
     let surface = Scene::new(field, wanted.own.spacing)?.surface;
-    let mesh = || Ok(Triangulation::new(&surface, &Frame::default())?.into_mesh());
-    if let Some(faces) = wanted.few_faces() {
-        return wanted.draw_simplified(&mesh()?, faces);
-    }
-    let patches = progress::part(0.1, || Patches::new(&surface, &wanted.patches))?;
-    let found = progress::part(0.95, || pattern(&surface, &patches, &wanted.sheets));
-    wanted.draw_found(found.map_err(Failure::from), mesh)
+    wanted.draw(Shape::Heights(&surface))
 }
 
 /// Values of λ and of the minimum patch size that an exploration tries, read from JavaScript; or only the λ that suits
@@ -270,30 +237,7 @@ pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> 
         wanted.set_thickness(metal.thickness * wanted.drawing.scale);
         mesh = metal.skin;
     }
-    if let Some(faces) = wanted.few_faces() {
-        return wanted.draw_simplified(&mesh, faces);
-    }
-    let kind = match wanted.own.exact {
-        Some(true) => MeshKind::Faces,
-        Some(false) => MeshKind::Noisy,
-        None => MeshKind::of(&mesh)?,
-    };
-    let found = match kind {
-        MeshKind::Faces => pattern_exact(&mesh, &wanted.net_options())?,
-        MeshKind::NoisyFaces(faces) | MeshKind::Bends(faces) => {
-            faces.pattern(&wanted.net_options())?
-        }
-        _ if !(wanted.own.cut.is_empty() && wanted.own.join.is_empty()) => {
-            return Err(Failure::option(
-                "options `cut` and `join` are for meshes with flat faces: `faces` makes any mesh one",
-            ));
-        }
-        _ => {
-            let found = sheets_of(&mesh, &wanted).map(|(_, found)| found);
-            return wanted.draw_found(found, || Ok(mesh));
-        }
-    };
-    wanted.draw(&found.sheets, &found.missing)
+    wanted.draw(Shape::Mesh(&mesh))
 }
 
 /// What a mesh is.
@@ -301,7 +245,7 @@ pub fn draw_pattern_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> 
 #[serde(rename = "RecognizedMesh")]
 struct RecognizedOutput {
     /// Whether a fit gains anything, and how the mesh is laid flat without one.
-    kind: RecognizedKind,
+    kind: MeshKind,
     /// Thickness of a solid of sheet metal, in the mesh's unit.
     #[serde(skip_serializing_if = "Option::is_none")]
     thickness: Option<f64>,
@@ -313,42 +257,23 @@ struct RecognizedOutput {
     noise: Option<f64>,
 }
 
-/// What a mesh is, of what a fit gains.
-#[derive(Serialize, Clone, Copy, Default)]
-#[serde(rename = "MeshKind", rename_all = "camelCase")]
-enum RecognizedKind {
-    /// Its faces are exact, as in CAD and low-poly models, or few, and are moved into the plane as they are.
-    Faces,
-    /// As `faces`, but some of its bends are triangulated irregularly, and are divided along their lines first.
-    Bends,
-    /// Its vertices have noise about flat faces, as in scans of roofs and boxes; the faces are laid flat without it.
-    NoisyFaces,
-    /// Its vertices have no noise, so that a fit gains nothing, but it is no part of planes, cylinders and cones.
-    Surface,
-    /// Its vertices have noise.
-    #[default]
-    Noisy,
-}
-
 /// Recognises exact and noisy meshes, and solids of sheet metal; returns JavaScript's `RecognizedMesh` object.
 #[wasm_bindgen(js_name = recognizeMesh)]
 pub fn recognize_mesh(mesh: JsValue) -> Result<JsValue> {
     let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
-    let mut found = RecognizedOutput::default();
-    match MeshKind::of(&mesh)? {
-        kind @ (MeshKind::Faces | MeshKind::Bends(_)) => {
-            found.kind = match kind {
-                MeshKind::Faces => RecognizedKind::Faces,
-                _ => RecognizedKind::Bends,
-            };
+    let RecognizedMesh { kind, faces, .. } = RecognizedMesh::of(&mesh)?;
+    let mut found = RecognizedOutput {
+        kind,
+        ..RecognizedOutput::default()
+    };
+    match kind {
+        MeshKind::Faces | MeshKind::Bends => {
             found.thickness = sheet_metal(&mesh)?.map(|metal| metal.thickness);
         }
-        MeshKind::NoisyFaces(faces) => {
-            found.kind = RecognizedKind::NoisyFaces;
-            (found.faces, found.noise) = (Some(faces.count), Some(faces.noise));
+        MeshKind::NoisyFaces => {
+            (found.faces, found.noise) = faces.map(|faces| (faces.count, faces.noise)).unzip();
         }
-        MeshKind::Surface => found.kind = RecognizedKind::Surface,
-        MeshKind::Noisy => {}
+        _ => {}
     }
     Ok(to_value(&found)?)
 }

@@ -17,7 +17,6 @@ use super::growth::grow;
 use crate::math::index::NO_INDEX;
 use crate::scene::exactness::Exactness;
 use crate::scene::half_edges::twin_half_edges;
-use crate::scene::mesh::Mesh;
 use crate::scene::polyhedron::{Place, Polyhedron};
 use cone::Cone;
 use division::Division;
@@ -38,12 +37,6 @@ const MAX_SLENDER_SHARE: f64 = 0.05;
 /// ([`Exactness::Faces`]) and one of them is neither on a bend nor next to it.
 ///
 /// Costs `O(triangles)` for each bend.
-pub fn rolled_faces(mesh: &Mesh) -> Option<FoundFaces> {
-    let solid = Polyhedron::new(mesh).ok()?;
-    divided_bends(&solid, Exactness::of_solid(&solid))
-}
-
-/// The faces of a mesh of whose exactness more may be known.
 pub(super) fn divided_bends(solid: &Polyhedron, exactness: Exactness) -> Option<FoundFaces> {
     // What is drawn on faces, and edges of more than two of them, are not divided.
     if !solid.textured.is_empty() || solid.twins != twin_half_edges(&solid.triangles) {

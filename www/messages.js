@@ -195,7 +195,7 @@ export const SHEET_WORDS = {
 /** Purposes of file formats, as the save dialogs show them beside each format. */
 export const FORMAT_WORDS = {
   obj: 'a mesh that nearly every program reads',
-  stl: 'a mesh for 3D printing',
+  stl: 'triangles alone, for CAD and modelling',
   glb: 'a mesh for the web and for phones, with colours',
   ply: 'a mesh in double precision',
   png: 'without loss',

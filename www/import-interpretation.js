@@ -46,9 +46,7 @@ export function interpretFile(read, noData) {
 }
 
 /** The lattice spacing in pixels that keeps the solve of a large image short. @param {{ width: number, height: number }} size */
-export function coarseningFor({ width, height }) {
-  return [1, 2, 4].find((step) => width * height <= MAX_QUICK_VERTICES * step * step) ?? 4;
-}
+export const coarseningFor = ({ width, height }) => [1, 2, 4].find((step) => width * height <= MAX_QUICK_VERTICES * step * step) ?? 4;
 
 /** @typedef {Omit<Input, 'name'>} InterpretedHeights */
 

@@ -133,6 +133,7 @@ pageTest('settings stand in the address, Back undoes them, and a file is there a
   for (const angle of ['0', '45']) {
     if (angle !== '0') await runBy(page, () => page.getByLabel('Turned by').selectOption(angle));
     assert.equal(await page.locator('#verdict').innerText(), 'One smooth piece without a crease.', `${angle}°`);
+    await page.locator('#stage[data-busy="false"] #about-view', { hasText: /deviation from straight\s*[1-4](\.\d+)?\s%/ }).waitFor();
   }
   // Whatever else is opened ends its story.
   await drop(page, 'other.npy', npy(48, grid(48, 36, (col) => 3 * col)));

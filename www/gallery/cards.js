@@ -82,7 +82,7 @@ export const CARDS = [
     id: 'fig-22', figure: 'Figs. 20, 22', title: 'A tilted cylinder without facets',
     words: 'The axis of a noisy cylinder lies askew to the pixels. Methods that bend along the edges of a mesh crease it; this one does not.',
     look: 'The result is one piece without a crease, however far it is turned.',
-    input: (size, turn) => sampledInput('cylinder', rotated(tiltedCylinder, turn), size, { noise: 0.02 }), turns: [0, 10, 20, 30, 45], size: 200, settings: PAPER_SETTINGS, view: 'rulings',
+    input: (size, turn) => sampledInput('cylinder', rotated(tiltedCylinder, turn), size, { noise: 0.02 }), turns: [0, 10, 20, 30, 45], size: 200, settings: { ...PAPER_SETTINGS, lambda: 3e5 }, view: 'rulings',
   },
   {
     id: 'fig-21', figure: 'Fig. 21', title: 'A house with smeared ridges',

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use nalgebra::Vector3;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::half_edges::{half_edge_ends, twin_half_edges};
 use super::mesh::{Mesh, TexturedTriangle};
@@ -65,7 +65,8 @@ impl KnownFaces {
 }
 
 impl Polyhedron {
-    /// Joins the vertices at one place, turns triangles to one side where they can be, and finds the facets.
+    /// Joins the vertices at one place, leaves out triangles that repeat another, turns triangles to one side where they can be,
+    /// and finds the facets.
     ///
     /// # Errors
     /// [`Error::Unsupported`] for a mesh whose triangles have no area.
@@ -73,9 +74,12 @@ impl Polyhedron {
         let rounding = rounding(mesh);
         let (places, merged) = merge_points(mesh.positions(), rounding);
         let triangles = (mesh.triangles().iter()).map(|t| t.map(|v| merged[v as usize]));
+        let turns = |[a, b, c]: [u32; 3]| [[a, b, c], [b, c, a], [c, a, b]].into_iter();
+        let mut known = FxHashSet::default();
         let given: Vec<(usize, [u32; 3])> = triangles
             .enumerate()
             .filter(|(_, [a, b, c])| a != b && b != c && c != a)
+            .filter(|(_, corners)| known.insert(turns(*corners).min()))
             .collect();
         let mut triangles: Vec<[u32; 3]> = given.iter().map(|(_, corners)| *corners).collect();
         let twins = oriented_twins(&places, &mut triangles, rounding);
@@ -373,8 +377,7 @@ fn merge_points(positions: &[[f64; 3]], rounding: f64) -> (Vec<Place>, Vec<u32>)
         });
         let near = |v: &&u32| (places[**v as usize] - place).norm() <= size;
         let found = around.filter_map(|cell| cells.get(&cell)?.iter().find(near));
-        let found = found.copied().next();
-        found.unwrap_or_else(|| {
+        found.copied().next().unwrap_or_else(|| {
             let number = places.len() as u32;
             places.push(place);
             cells.entry(cell).or_default().push(number);
@@ -442,11 +445,8 @@ fn oriented_twins(places: &[Place], triangles: &mut [[u32; 3]], rounding: f64) -
         let [a, b, c] = t.map(|v| places[v as usize] - origin);
         a.dot(&b.cross(&c))
     });
-    let outwards = if volumes.sum::<f64>() < 0.0 {
-        -1.0
-    } else {
-        1.0
-    };
+    // Makes 0 of -0.
+    let outwards = (0.0 + volumes.sum::<f64>()).signum();
     let mut keys: Vec<_> = edges.keys().copied().collect();
     keys.sort_unstable();
     let mut pairs = vec![NO_INDEX; 3 * triangles.len()];

@@ -8,7 +8,7 @@ import { mapFile, mapOptions, printed, sizeInWords } from './flat-image.js';
 import { cylinderOf, flattened, reported } from './flattened.js';
 import { Problem, status } from './problem.js';
 import { optionsFrom } from './task.js';
-import { during, percent, succeed, toStderr } from './terminal.js';
+import { during, percent, say, succeed } from './terminal.js';
 
 /**
  * @typedef {import('./task.js').Task} Task
@@ -43,37 +43,27 @@ export async function dewarp(task, signal) {
   await writeWhole(files, signal);
   succeed(task.output, sizeInWords(flat));
   if (task.camera !== undefined && crop === undefined && reachesRim(surface)) {
-    toStderr(
-      'developable: warning: the whole depth image was flattened, with what the page lies on; --crop x,y,x,y,... with the corners of ' +
-        'the page in the photo selects the page, and so does --mask\n',
-    );
+    say('warning: the whole depth image was flattened, with what the page lies on; --crop x,y,x,y,... with the corners of the page in the photo selects the page, and so does --mask');
   }
   if (cylinder?.verdict === 'other') {
-    toStderr(
-      'developable: warning: the heights are not those of a cylinder: what is made flat may be wrong; without --shape cylinder ' +
-        'any surface that unrolls is fitted\n',
-    );
+    say('warning: the heights are not those of a cylinder: what is made flat may be wrong; without --shape cylinder any surface that unrolls is fitted');
   }
   if (crop?.length === 4 && flat.loss > MAX_UNMENTIONED_LOSS) {
-    toStderr(`developable: warning: ${percent(flat.loss, 2)} of the page between the corners of --crop is missing: there are no depths of it\n`);
+    say(`warning: ${percent(flat.loss, 2)} of the page between the corners of --crop is missing: there are no depths of it`);
   }
   if (flat.verdict === 'doubtful' && flat.overreach > 0) {
-    toStderr(
-      `developable: warning: --crop reaches beyond the page that the photo shows, by up to ${percent(flat.overreach, 2)} of its side: the flat ` +
-        'image may show what lies beside the page, and be bent by it; place the corners on the page\n',
-    );
+    const beyond = `--crop reaches beyond the page that the photo shows, by up to ${percent(flat.overreach, 2)} of its side`;
+    say(`warning: ${beyond}: the flat image may show what lies beside the page, and be bent by it; place the corners on the page`);
   }
   if (flat.verdict === 'flat') {
-    toStderr('developable: the photo shows the page flat to begin with, and can be used as it is\n');
+    say('the photo shows the page flat to begin with, and can be used as it is');
   } else if (flat.verdict === 'stretched') {
     const { distortion: { rms, above, flipped }, crossings } = flat.report;
     const reasons = [
       ...(above > 0 ? [`its sheet is stretched by ${percent(rms, 2)} on average and by more than 1 % in ${percent(above, 2)} of its area`] : []),
       ...(flipped + crossings > 0 ? ['parts of the sheet lie on others'] : []),
     ];
-    toStderr(
-      `developable: warning: the surface cannot be laid flat as it is: ${reasons.join(', and ')}; lengths on the flat image may be wrong\n`,
-    );
+    say(`warning: the surface cannot be laid flat as it is: ${reasons.join(', and ')}; lengths on the flat image may be wrong`);
   }
 }
 

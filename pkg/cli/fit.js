@@ -9,7 +9,7 @@ import { withFileName } from './explain.js';
 import { readForFit } from './inputs.js';
 import { Problem, status } from './problem.js';
 import { optionsFrom } from './task.js';
-import { during, fitInWords, percent, progressLine, succeed, toStderr } from './terminal.js';
+import { during, fitInWords, percent, progressLine, say, succeed } from './terminal.js';
 import { reportFile } from './texts.js';
 
 /**
@@ -34,32 +34,8 @@ export async function fit(task, signal) {
   if (task.mtl !== undefined) {
     files.push({ path: task.mtl, bytes: await developable.writeMtl(from(task.mtl, String(task.texture))) });
   }
-  const { report } = surface;
-  await writeWhole([...files, ...reportFile(task, report)], signal);
-  succeed(task.output, fitInWords(report));
-  const { residualExceedsNoise, residualRatio, reason, tolerance, offsetRows, offsetColumns } = report.lambdaChoice ?? {};
-  const lines = [offsetRows && 'rows', offsetColumns && 'columns'].filter(Boolean).join(' and ');
-  if (lines) toStderr(`developable: ${lines} of this input have offsets of their own, which were taken out; --bridge none leaves them\n`);
-  if (tolerance !== undefined && reason !== 'tolerance') {
-    toStderr(
-      `developable: ${reason === 'noNoise' ? 'this input has no noise' : 'shape and noise cannot be told apart in this input'}, so the surface keeps `
-      + `to its heights, but for ${Number((surface.pixelDistance ?? tolerance).toPrecision(2))} (root mean square); --tolerance or --lambda asks for a simpler one\n`,
-    );
-  }
-  if (residualExceedsNoise) {
-    toStderr(
-      `developable: warning: the surface is farther from the heights than their noise explains (at least ${residualRatio?.toFixed(1)} times): a part of ` +
-      `the shape is lost; a larger --lambda than ${Number(report.lambda.toPrecision(2))} keeps more of it\n`,
-    );
-  }
-  const certainty = report.gap === undefined ? 'without a known gap' : `with a gap of ${percent(report.gap)}`;
-  if (report.stopReason === 'maxIterations') {
-    toStderr(
-      `developable: warning: stopped after ${report.iterations} iterations ${certainty}; --max-iterations allows more\n`,
-    );
-  } else if (report.stopReason === 'diverged') {
-    toStderr(`developable: warning: the iterations diverged; the best surface before is ${certainty}\n`);
-  }
+  await writeWhole([...files, ...reportFile(task, surface.report)], signal);
+  succeed(task.output, fitInWords(surface.report));
 }
 
 /**
@@ -105,10 +81,44 @@ export async function solve(task, input, control) {
   const options = { ...optionsFrom(solver, task), ...(task.lattice === 'square' && { spacing: task.spacing }) };
   const line = progressLine();
   line.begin();
-  try {
-    return await developable.fit(input, { ...options, ...control, onProgress: line.shown ? line.show : undefined });
-  } finally {
-    line.clear();
+  const surface = await developable
+    .fit(input, { ...options, ...control, onProgress: line.shown ? line.show : undefined })
+    .finally(() => line.clear());
+  tell(surface);
+  return surface;
+}
+
+/** @param {number} x */
+const rounded = (x) => Number(x.toPrecision(2));
+
+/**
+ * Says what the fit took for noise, and what it did not reach.
+ * @param {Surface} surface
+ */
+function tell({ report, pixelDistance }) {
+  const { residualExceedsNoise, residualRatio, reason, tolerance, offsetRows, offsetColumns, sigma = 0, correlationLength = 0 } = report.lambdaChoice ?? {};
+  const lines = [offsetRows && 'rows', offsetColumns && 'columns'].filter(Boolean).join(' and ');
+  if (lines) say(`${lines} of this input have offsets of their own, which were taken out; --bridge none leaves them`);
+  if (tolerance !== undefined && reason === 'tolerance') {
+    if (rounded(pixelDistance ?? 0) > rounded(tolerance)) {
+      say(`the surface is ${rounded(pixelDistance ?? 0)} from the pixels (root mean square): --tolerance holds at the vertices of the lattice, and for no outliers; a smaller --spacing comes nearer to the pixels`);
+    }
+  } else if (tolerance !== undefined) {
+    const known = reason === 'noNoise' ? 'this input has no noise' : 'shape and noise cannot be told apart in this input';
+    say(`${known}, so the surface keeps to its heights, but for ${rounded(pixelDistance ?? tolerance)} (root mean square); --tolerance or --lambda asks for a simpler one`);
+  } else if (correlationLength > 0) {
+    const distance = pixelDistance === undefined ? '' : `, ${rounded(pixelDistance)} from the heights (root mean square)`;
+    say(`the surface is without noise of ${rounded(sigma)}, alike over distances of ${rounded(correlationLength)}${distance}: if that is a shape, --tolerance 0.2% keeps it`);
+  }
+  if (residualExceedsNoise) {
+    const times = `(at least ${residualRatio?.toFixed(1)} times)`;
+    say(`warning: the surface is farther from the heights than their noise explains ${times}: a part of the shape is lost; a larger --lambda than ${rounded(report.lambda)} keeps more of it`);
+  }
+  const certainty = report.gap === undefined ? 'without a known gap' : `with a gap of ${percent(report.gap)}`;
+  if (report.stopReason === 'maxIterations') {
+    say(`warning: stopped after ${report.iterations} iterations ${certainty}; --max-iterations allows more`);
+  } else if (report.stopReason === 'diverged') {
+    say(`warning: the iterations diverged; the best surface before is ${certainty}`);
   }
 }
 

@@ -107,6 +107,17 @@ test('offsets of whole rows and columns are said to be taken out, unless they ar
   }
 });
 
+test('every command that fits tells smooth noise that it takes away, since that may be a shape', async () => {
+  const rough = Float64Array.from({ length: 70 * 70 }, noisy(() => 0, 1));
+  const blur = [1, 4, 6, 4, 1].flatMap((a, i) => [1, 4, 6, 4, 1].map((b, k) => [70 * i + k, (a * b) / 256]));
+  const smooth = (/** @type {number} */ x, /** @type {number} */ y) => blur.reduce((sum, [at, weight]) => sum + weight * rough[70 * Math.floor(y) + Math.floor(x) + at], 0);
+  await store('smooth.npy', image(64, 64, (x, y) => 0.3 * x + smooth(x, y)));
+  for (const args of ['fit smooth.npy -o out.npy', 'analyze smooth.npy', 'patches smooth.npy -o out.json']) {
+    const told = /^developable: the surface is without noise of 0\.1\d+, alike over distances of [12][\d.]*, 0\.\d+ from the heights .*--tolerance 0\.2% keeps it\n$/;
+    assert.match((await run(folder, args)).stderr, told, args);
+  }
+});
+
 test('a tolerance is a distance or a share of the height range, in the command and in both APIs', async () => {
   const waves = image(60, 60, (x, y) => 10 + 3 * Math.sin(x / 7) * Math.cos(y / 9));
   await store('waves.npy', waves);

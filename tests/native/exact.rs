@@ -107,13 +107,8 @@ fn polyhedra_are_one_net_with_the_shortest_cut() {
     ]);
     let cube = |i: usize| [0, 1, 2].map(|k| if i >> k & 1 == 1 { 60.0 } else { 0.0 });
     let octahedron = |i: usize| {
-        [0, 1, 2].map(|k| {
-            if i / 2 == k {
-                30.0 - 60.0 * (i % 2) as f64
-            } else {
-                0.0
-            }
-        })
+        let end = 30.0 - 60.0 * (i % 2) as f64;
+        [0, 1, 2].map(|k| if i / 2 == k { end } else { 0.0 })
     };
     // One cut fewer than faces is left of all edges.
     let edge = 60.0 * 2f64.sqrt();
@@ -341,18 +336,11 @@ fn faces_meeting_at_an_edge_of_three_are_cut_there() {
         let [a, b] = [2 + 2 * page, 3 + 2 * page];
         triangles.extend([[0, a, b], [0, b, 1]]);
     }
-    let pattern = pattern_exact(
-        &Mesh::new(points, triangles).unwrap(),
-        &NetOptions::default(),
-    )
-    .unwrap();
+    let book = Mesh::new(points, triangles).unwrap();
+    let pattern = pattern_exact(&book, &NetOptions::default()).unwrap();
     assert_eq!(pattern.sheets.len(), 3);
-    assert!(
-        pattern
-            .sheets
-            .iter()
-            .all(|sheet| (sheet.area - 100.0).abs() < 1e-9)
-    );
+    let mut areas = pattern.sheets.iter().map(|sheet| sheet.area);
+    assert!(areas.all(|area| (area - 100.0).abs() < 1e-9));
 }
 
 #[test]

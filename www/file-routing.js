@@ -42,7 +42,7 @@ export async function routeFiles(files, inPhotoMode) {
   const pictures = files.filter((file) => kindByName(file) === 'picture');
   if (pictures.length > 0) {
     // Heights that are kept as a picture are a grey PNG.
-    const arePhotos = inPhotoMode || pictures.length > 1 || !/\.png$/i.test(pictures[0].name) || await isInColour(pictures[0]);
+    const arePhotos = inPhotoMode || pictures.length > 1 || !/\.png$/i.test(pictures[0].name) || await hasFewLevels(pictures[0]) || await isInColour(pictures[0]);
     return { to: arePhotos ? 'photos' : 'heights', files: pictures, left: without(pictures) };
   }
   const first = [files.find(kindByName) ?? files[0]];
@@ -96,6 +96,9 @@ async function isGreyPng(file, isDeep = false) {
   const [bits, colour] = new Uint8Array(await file.slice(24, 26).arrayBuffer());
   return isDeep ? bits === 16 && colour === 0 : colour === 0 || colour === 4;
 }
+
+/** Whether a PNG has 16 levels at most, as scans of letters in black and white have, and heights have not. @param {File} file */
+const hasFewLevels = async (file) => new Uint8Array(await file.slice(24, 25).arrayBuffer())[0] < 8;
 
 /**
  * Whether a picture has a pixel in colour. Those that the browser cannot decode are taken for photos in colour unless they are

@@ -133,6 +133,4 @@ export class MeshFit extends Events {
 }
 
 /** The geometry of a mesh, without its texture. @param {Mesh} mesh */
-function geometryOf({ positions, triangles, unit }) {
-  return { positions, triangles, unit };
-}
+const geometryOf = ({ positions, triangles, unit }) => ({ positions, triangles, unit });

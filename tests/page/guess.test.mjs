@@ -25,14 +25,15 @@ test('what a reader has assumed is one sentence', () => {
   assert.equal(assumedInWords([{ code: 'noData', words: '0.123456 is no data (127493 pixels)' }]), 'Assumed: 0.123456 is no data (127\u202f493 pixels).');
 });
 
-/** A PNG file's beginning, of the given colour type. @param {string} name @param {number} colour */
-const pngFile = (name, colour) => new File([Uint8Array.of(0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10, 0, 0, 0, 13, 0x49, 0x48, 0x44, 0x52, 0, 0, 0, 9, 0, 0, 0, 9, 8, colour, 0, 0, 0)], name);
+/** A PNG file's beginning, of the given colour type. @param {string} name @param {number} colour @param {number} [bits] */
+const pngFile = (name, colour, bits = 8) => new File([Uint8Array.of(0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10, 0, 0, 0, 13, 0x49, 0x48, 0x44, 0x52, 0, 0, 0, 9, 0, 0, 0, 9, bits, colour, 0, 0, 0)], name);
 
 test('a grey PNG beside one in colour holds its depths, but is a page among photos of pages', async () => {
   const files = [pngFile('scan.png', 0), pngFile('photo.png', 2)];
   const route = (/** @type {boolean} */ inPhotoMode) => routeFiles(files, inPhotoMode);
   assert.deepEqual([(await route(false)).to, (await route(true)).to], ['heights', 'photos']);
   assert.deepEqual((await route(true)).files, files);
+  assert.equal((await routeFiles([pngFile('letter.png', 0, 1)], false)).to, 'photos', 'black and white are no heights');
 });
 
 test('cameras of COLMAP belong to depths, and its depths are no cameras', async () => {

@@ -35,9 +35,7 @@ export function flattenReducedPhoto(worker, { photo: { reduced, scale, film35, o
  * @param {DewarpedPage} found
  * @returns {Promise<FlatPage>}
  */
-export function flattenWholePhoto(worker, { photo: { width, height, data }, options: { light, ink } }, found) {
-  return worker.flattenPhoto({ width, height, data }, found, { light, ink });
-}
+export const flattenWholePhoto = (worker, { photo: { width, height, data }, options: { light, ink } }, found) => worker.flattenPhoto({ width, height, data }, found, { light, ink });
 
 /**
  * The edges of each page. One page has four; two pages of a book have only upper and lower edges, since no edge is visible at

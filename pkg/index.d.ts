@@ -309,7 +309,7 @@ export function rulings(mesh: Mesh, options?: MeshRulingOptions): Promise<MeshRu
 export function fitCylinder(input: Heightfield): Promise<FittedCylinder>;
 /** Lays a surface flat without cuts, with as little strain as possible. */
 export function unroll(input: HeightImage | Heightfield, options?: UnrollOptions & Watchable): Promise<Unrolling>;
-/** Lays a mesh flat: cuts it into sheets along its creases, and where it does not lie flat otherwise. */
+/** Lays a mesh flat as `pattern` does, and returns the triangles of its sheets, side by side. */
 export function unroll(mesh: Mesh, options?: MeshUnrollOptions & Watchable): Promise<MeshUnrolling>;
 /**
  * Makes a pattern of a surface: cuts it along creases into sheets that lie flat, with as few cuts as possible, and

@@ -928,8 +928,6 @@ export interface MeshRulings {
  * vertices than the mesh, since it is cut.
  */
 export interface MeshUnrolling {
-  /** Number of the patch of each triangle of the mesh, −1 for none. */
-  labels: Int32Array<ArrayBuffer>;
   /** Coordinates x, y, z of each vertex of the sheets on the mesh, in the mesh's unit of length. */
   positions: Float64Array<ArrayBuffer>;
   /**
@@ -943,9 +941,9 @@ export interface MeshUnrolling {
   sheets: Uint32Array<ArrayBuffer>;
   /** The two singular values of each triangle's map from the mesh to the plane, the larger one first. */
   stretches: Float64Array<ArrayBuffer>;
-  /** The patches of the mesh, that with the largest area first. */
+  /** The patches of the sheets, that with the largest area first. */
   patches: Patch[];
-  /** The creases between the patches. */
+  /** The creases and cuts between the patches. */
   creases: Crease[];
   /** Measures of the sheets: number, area, strain and gaps at folds, and what is on no sheet. */
   report: MeshUnrollingReport;
@@ -963,6 +961,11 @@ export interface MeshUnrollingReport {
   seamGap: number;
   /** Parts of the mesh that cannot be laid flat and are on no sheet; all 0 if there are none. */
   missing: MissingSurface;
+  /**
+   * The flat faces that stand for the mesh, if no cut lays it flat or so few are wanted; the distance in the mesh's
+   * unit.
+   */
+  simplified?: SimplifiedSurface;
 }
 
 /**

@@ -98,9 +98,23 @@ export class MeshFit extends Events {
     return this.#tasks.answer(mesh, 'rulings', (worker) => worker.rulings(geometryOf(mesh), { separation: Math.max(...sidesOf(mesh.positions)) / RULINGS_PER_LONGEST_SIDE }));
   }
 
-  /** @param {Mesh} mesh @param {Tell} tell */
-  unrolled(mesh, tell) {
-    return this.#tasks.answer(mesh, 'unrolled', (worker) => worker.unroll(geometryOf(mesh), { onProgress: ({ fraction }) => tell({ fraction, task: 'unrolling' }) }));
+  /** @param {Mesh} mesh */
+  patches(mesh) {
+    return this.#tasks.answer(mesh, 'patches', (worker) => worker.patches(geometryOf(mesh)));
+  }
+
+  /** @param {MeshSurface} surface @param {Tell} tell */
+  async unrolled(surface, tell) {
+    const { laidFlat, smooth } = await this.#laidFlat(surface);
+    return this.#tasks.answer(laidFlat, 'unrolled', (worker) => worker.unroll(geometryOf(laidFlat), { ...smooth, onProgress: ({ fraction }) => tell({ fraction, task: 'unrolling' }) }));
+  }
+
+  /** The mesh that is laid flat: the fitted surface, or the input where its faces are known, which is more exact than a fit. @param {MeshSurface} surface */
+  async #laidFlat(surface) {
+    const { kind, thickness } = await this.recognized(this.mesh ?? surface);
+    const isKnown = kind === 'noisyFaces' || ((kind === 'faces' || kind === 'bends') && this.lambda === 'auto');
+    const smooth = isKnown || surface.report.stopReason === 'noNoise' ? {} : { exact: false };
+    return { laidFlat: isKnown ? (this.mesh ?? surface) : surface, isKnown, kind, thickness, smooth };
   }
 
   /** Tells what kind of mesh it is, and how thick a solid of sheet metal. @param {Mesh} mesh */
@@ -108,21 +122,12 @@ export class MeshFit extends Events {
     return this.#tasks.answer(mesh, 'kind', (worker) => worker.recognizeMesh(geometryOf(mesh)));
   }
 
-  /**
-   * The sheets of the fitted surface, or of the input where its faces are known, which is more exact than a fit.
-   * @param {MeshSurface} surface
-   * @param {import('../pkg/types.js').MeshPatternOptions} options
-   * @param {Tell} tell
-   */
+  /** @param {MeshSurface} surface @param {import('../pkg/types.js').MeshPatternOptions} options @param {Tell} tell */
   async pattern(surface, options, tell) {
-    const mesh = this.mesh ?? surface;
     const cut = (/** @type {Mesh} */ laidFlat, /** @type {import('../pkg/types.js').MeshPatternOptions} */ wanted) =>
       this.#tasks.answer(laidFlat, `pattern ${JSON.stringify(options)}`, (worker) => worker.pattern(wanted.printed ? laidFlat : geometryOf(laidFlat), { ...wanted, onProgress: tell }));
-    if (options.faces) return cut(mesh, options);
-    const { kind, thickness } = await this.recognized(mesh);
-    const isKnown = kind === 'noisyFaces' || ((kind === 'faces' || kind === 'bends') && this.lambda === 'auto');
-    const laidFlat = isKnown ? mesh : surface;
-    const smooth = isKnown || surface.report.stopReason === 'noNoise' ? {} : { exact: false };
+    if (options.faces) return cut(this.mesh ?? surface, options);
+    const { laidFlat, isKnown, kind, thickness, smooth } = await this.#laidFlat(surface);
     // A solid of sheet metal has a thickness of its own.
     const { thickness: sheetThickness, innerRadius, ...others } = isKnown && kind !== 'bends' ? options : withoutFaces(options);
     const own = sheetThickness === undefined ? others : thickness === undefined ? { ...others, thickness: sheetThickness, innerRadius } : { ...others, blank: true };

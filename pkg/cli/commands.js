@@ -144,7 +144,7 @@ export const commands = {
     about: 'Fits a surface and lays it flat, as rigidly as it goes.',
     input: INPUT,
     writes: ['.obj', '.json'],
-    flags: [...shaped, 'surface', 'report'],
+    flags: [...shaped, 'surface', 'report', 'faces'],
     words: { output: '.obj (a flat mesh) or .json (with stretch and overlaps)', report: 'JSON file for the strain and the verdict' },
     examples: ['unroll scan.png -o sheet.obj --report sheet.json', 'unroll scan.ply -o sheets.obj --surface'],
   },

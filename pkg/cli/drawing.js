@@ -114,11 +114,16 @@ function reportSlits({ slits, slitLength, sheets, strain }) {
   );
 }
 
-/** Says how many flat faces stand for the surface. @param {Task} task @param {import('../types.js').Drawing['summary']} summary */
-function reportSimplified({ input, faces }, { simplified }) {
+/**
+ * Says how many flat faces stand for the surface.
+ * @param {Task} task
+ * @param {Pick<import('../types.js').Drawing['summary'], 'simplified'>} summary
+ * @param {string} [unit]
+ */
+export function reportSimplified({ input, faces }, { simplified }, unit = 'mm') {
   if (simplified === undefined) return;
   const why = faces === undefined ? 'no cut lays it flat within the limits; --faces decides how many, 0 none' : 'as --faces says';
-  say(`${simplified.faces} flat faces stand for ${input}, ${Number(simplified.distance.toPrecision(2))} mm from it (root mean square): ${why}`);
+  say(`${simplified.faces} flat faces stand for ${input}, ${Number(simplified.distance.toPrecision(2))} ${unit} from it (root mean square): ${why}`);
 }
 
 /** Warns of parts of the surface that are on no sheet. @param {import('../types.js').Drawing['summary']} summary */
@@ -136,4 +141,4 @@ function reportMissing({ missing }) {
 }
 
 /** @param {number} count @param {string} what @param {string} [several] */
-const counted = (count, what, several = `${what}s`) => `${count} ${count === 1 ? what : several}`;
+export const counted = (count, what, several = `${what}s`) => `${count} ${count === 1 ? what : several}`;

@@ -2,7 +2,7 @@
 import * as developable from '../index.js';
 import { meshSolver } from '../schema/fit.js';
 import { rulingsMesh } from '../schema/shape.js';
-import { drawingOptions, patternFiles, reportPattern } from './drawing.js';
+import { counted, drawingOptions, patternFiles, reportPattern, reportSimplified } from './drawing.js';
 import { checkPlaces, writeWhole } from './files.js';
 import { writeMesh } from './fit.js';
 import { readMesh } from './inputs.js';
@@ -25,12 +25,15 @@ export async function whole(task, signal) {
   await checkPlaces(...task.written);
   const mesh = await readMesh(task);
   if (task.explore || task.sheets !== undefined) return planned(task, mesh, signal);
-  const exact = task.command === 'pattern' && ((task.faces ?? 0) > 0 || await isExact(task, mesh));
+  const exact = isLaidFlat(task) && ((task.faces ?? 0) > 0 || await isExact(task, mesh));
   const surface = task.asIs || exact ? undefined : await fitted(task, mesh, signal);
   const files = await made[task.command](task, surface ?? mesh, mesh, exact || surface?.report.stopReason === 'noNoise');
   await writeWhole(files, signal);
   if (surface !== undefined) tell(task, surface, mesh);
 }
+
+/** Whether a command lays a mesh flat, whose faces may be exact. @param {Task} task */
+const isLaidFlat = ({ command }) => command === 'pattern' || command === 'unroll';
 
 /** What the command says is done with an exact mesh, by its kind. */
 const TAKEN = {
@@ -44,9 +47,9 @@ const TAKEN = {
  * @param {Task} task
  * @param {Mesh} mesh
  */
-async function isExact({ input, asIs, blank, lambda, recognized }, mesh) {
+async function isExact({ command, input, asIs, blank, lambda, recognized }, mesh) {
   const { kind, thickness, faces, noise = 0 } = recognized ?? await developable.recognizeMesh(mesh);
-  if (thickness !== undefined && !blank) {
+  if (thickness !== undefined && command === 'pattern' && !blank) {
     say(`${input} looks like sheet metal, ${Number(thickness.toPrecision(4))} thick in the file's unit: --blank draws what it is bent from`);
   }
   if (kind === 'noisy' || (lambda !== undefined && !asIs)) return false;
@@ -90,8 +93,9 @@ const made = {
     return [{ path: output, bytes }, ...reportFile(task, { lines })];
   },
 
-  async unroll(task, surface) {
-    const sheets = await during('laying it flat', (watched) => developable.unroll(surface, watched));
+  async unroll(task, surface, _mesh, exact) {
+    const sheets = await during('laying it flat', (watched) => developable.unroll(surface, { faces: task.faces, exact: exact ? undefined : false, ...watched }));
+    reportSimplified(task, sheets.report, 'in the file’s unit');
     const { patches, creases, report } = sheets;
     const bytes = task.extension === '.obj' ? flatObj(sheets) : json(plainArrays(sheets));
     return [{ path: task.output, bytes }, ...reportFile(task, { ...report, patches, creases })];
@@ -146,17 +150,15 @@ function tell(task, { report }, mesh) {
   const mended = Object.entries({ 'on the wrong side': turned, 'with two corners at one place': degenerate, 'there twice': repeated });
   const found = mended.filter(([, count]) => count > 0).map(([what, count]) => `${count} ${what}`).join(', ');
   if (found) toStderr(`developable: warning: triangles of ${task.input} that are mended for the fit: ${found}\n`);
-  if (report.flipped[1] > 0) {
-    toStderr(
-      `developable: warning: ${report.flipped[1]} triangles of ${task.output} are folded over (${percent(report.flipped[1] / (mesh.triangles.length / 3))})\n`,
-    );
-  }
+  const fitted = task.command === 'fit' ? task.output : 'the fitted surface';
   const [first] = report.entangled;
   if (first) {
     const place = first.position.map((x) => Number(x.toPrecision(4))).join(', ');
     toStderr(
-      `developable: warning: ${report.entangled.length} triangles of ${task.output} are folded over or cross others, as far as the noise ` +
-        `tells; the first is number ${first.triangle}, at (${place}); report.entangled has all\n`,
+      `developable: warning: ${counted(report.entangled.length, 'triangle')} of ${fitted} folded over or across others, as far as the noise ` +
+        `tells; the first is number ${first.triangle}, at (${place})${task.command === 'fit' ? '; report.entangled has all' : ''}\n`,
     );
+  } else if (report.flipped[1] > 0) {
+    toStderr(`developable: warning: ${counted(report.flipped[1], 'triangle')} of ${fitted} folded over (${percent(report.flipped[1] / (mesh.triangles.length / 3))})\n`);
   }
 }

@@ -140,6 +140,7 @@ const RULES = [
     '--as-is of an image has no mesh: write .json or .npy, or leave it out'],
   [({ mode, size }) => size !== undefined && mode !== 'surface', '--size is for meshes: give --scale'],
   ...['cut', 'join', 'blank', 'printed'].map((flag) => given(flag, ({ mode }) => mode !== 'surface', `--${flag} is for meshes, and the input is none`)),
+  given('faces', ({ command, mode }) => command === 'unroll' && mode !== 'surface', '--faces is for meshes with --surface'),
   [({ command, mode, texture }) => command === 'dewarp' && texture === undefined && (mode === 'image' || mode === 'depths'),
     'the photo is missing: --texture PHOTO; or INPUT is a photo of a page: .jpg, .png, .webp, .gif, .bmp or .tif'],
   [({ shape, lattice }) => shape === 'cylinder' && lattice === 'square',

@@ -9,7 +9,7 @@ const paper = either(
   either(numbers(2, '[width, height] of plates'), numbers(1, '[width] of a roll, in millimetres')),
 );
 
-/** How far sheets may be from exact. @satisfies {Options} */
+/** How far sheets may be from the surface. @satisfies {Options} */
 export const limits = {
   /**
    * Maximum strain of a sheet, as a share: root mean square over the sheet, so that single lengths may be off by more. A
@@ -37,20 +37,10 @@ export const limits = {
       help: 'maximum distance between the two sides of a fold, as a share of its length; a crease with more is cut (default 0.005)',
     },
   },
-};
-
-/** Options of the drawing of a pattern. @satisfies {Options} */
-export const drawing = {
-  /** Millimetres for each unit of length. Default: true size, that is 1000 where the unit is metres, else 1. */
-  scale: {
-    kind: number,
-    flag: { section: 'shape', value: 'MM', help: 'millimetres of the pattern for each unit of length (default: true size; 1 where the unit is not known)' },
-  },
-  ...limits,
   /**
    * Maximum number of flat faces that stand for the surface, whatever its shape: it is simplified to so many triangles. More are left
    * only where fewer would not leave its connections as they are; 0: it is never simplified. Default: 500 where no cut lays the
-   * surface flat within the limits, which `summary.simplified` tells.
+   * surface flat within the limits, which `simplified` of the summary or report tells.
    */
   faces: {
     kind: whole,
@@ -61,6 +51,16 @@ export const drawing = {
         '500 where no cut lays the surface flat)',
     },
   },
+};
+
+/** Options of the drawing of a pattern. @satisfies {Options} */
+export const drawing = {
+  /** Millimetres for each unit of length. Default: true size, that is 1000 where the unit is metres, else 1. */
+  scale: {
+    kind: number,
+    flag: { section: 'shape', value: 'MM', help: 'millimetres of the pattern for each unit of length (default: true size; 1 where the unit is not known)' },
+  },
+  ...limits,
   /** Depth of tabs along cut creases, in millimetres; short ones where these are curved. 0 for none. */
   tabs: {
     kind: number,
@@ -162,6 +162,11 @@ export const unrollMesh = {
   ...patchesMesh,
   ...meshUnrolling,
   ...limits,
+  /**
+   * Whether the mesh's faces are moved into the plane as they are, without strain, and not laid flat as a smooth surface.
+   * Default: what `recognizeMesh` says of the mesh; of one that was fitted say `false`, for few triangles of it are a low-poly model.
+   */
+  exact: { kind: flag },
 };
 
 /** Options of models with faces. @satisfies {Options} */
@@ -171,11 +176,6 @@ export const model = {
     kind: positive,
     flag: { section: 'shape', value: 'MM', help: 'largest extent of the model in millimetres, instead of --scale, for --surface' },
   },
-  /**
-   * Whether the mesh's faces are moved into the plane as they are, without strain, and not laid flat as a smooth surface.
-   * Default: what `recognizeMesh` says of the mesh; of one that was fitted say `false`, for few triangles of it are a low-poly model.
-   */
-  exact: { kind: flag },
   /**
    * Pairs of patches whose common edges are cut, for meshes with exact faces: by the numbers, from 1 on, that are drawn on the sheets
    * without `cut` and `join` (those in `sheets[].patches` are from 0 on). A pair without a common edge is refused. Default: none.

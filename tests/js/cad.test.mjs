@@ -48,8 +48,23 @@ test('faces, walls and holes of extruded parts have their areas, and no strain',
     const { summary } = direct.pattern(mesh, { scale: 1 });
     near(summary.area, area);
     assert.equal(summary.strain, 0);
+    // Triangle by triangle it is laid flat as its sheets are.
+    const { report, places, triangles } = direct.unroll(mesh);
+    assert.deepEqual([report.sheets, report.strain, report.missing.area], [summary.sheets, 0, 0]);
+    near(flatArea(places, triangles), area);
   }
 });
+
+/** Area of triangles in the plane. @param {Float64Array} places @param {Uint32Array} triangles */
+function flatArea(places, triangles) {
+  const at = (/** @type {number} */ corner) => places.subarray(2 * triangles[corner], 2 * triangles[corner] + 2);
+  let area = 0;
+  for (let corner = 0; corner < triangles.length; corner += 3) {
+    const [[ax, ay], [bx, by], [cx, cy]] = [at(corner), at(corner + 1), at(corner + 2)];
+    area += 0.5 * ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax));
+  }
+  return area;
+}
 
 test('a channel is bent from the blank that its bends allow', () => {
   const [width, height, thickness, inner, length] = [40, 20, 1.5, 3, 60];
@@ -88,6 +103,8 @@ test('a shape that no cut lays flat is built of flat faces, as many as are wante
     const radius = 50 * Math.sqrt((16 * Math.PI) / (3 * Math.sqrt(3) * faces));
     assert.ok(distance > 0 && distance < 50 - Math.sqrt(50 ** 2 - radius ** 2), `${distance}`);
     assert.equal(summary.strain, 0);
+    const { scale, ...unrolling } = given;
+    assert.deepEqual(direct.unroll(ball, unrolling).report.simplified, summary.simplified);
   }
   assert.throws(() => direct.pattern(ball, { faces: 1.5 }), error('OPTION', /faces.*whole number/));
 });

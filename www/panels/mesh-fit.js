@@ -53,7 +53,7 @@ export function meshFitPanel(session, meshFit, stage, heights) {
       return curvature('gaussian', mesh.unit, { before, after }, ({ gaussian }) => meshField(mesh, gaussian));
     }),
     rulings: ofSurface(async (surface, { unit }) => rulings((await meshFit.rulings(surface)).lines, unit)),
-    patches: ofSurface(async (surface, _, tell) => patchesOfMesh(surface, await meshFit.unrolled(surface, tell))),
+    patches: ofSurface(async (surface) => patchesOfMesh(surface, await meshFit.patches(surface))),
     photo: ofSurface((_, mesh) => photoOfMesh(mesh)),
     sheet: ofSurface(async (surface, { unit }, tell) => sheetOfMesh(unit ?? 'units', await meshFit.unrolled(surface, tell))),
   };

@@ -39,7 +39,7 @@ export function patchesOfHeights({ unit }, map) {
 /**
  * The patches of a mesh.
  * @param {Pick<Mesh, 'unit'>} mesh
- * @param {Pick<import('../../pkg/types.js').MeshUnrolling, 'labels' | 'patches' | 'creases'>} found
+ * @param {import('../../pkg/types.js').MeshPatchMap} found
  * @returns {ViewContent}
  */
 export function patchesOfMesh({ unit }, { labels, patches, creases }) {

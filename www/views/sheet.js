@@ -27,11 +27,12 @@ export function sheetOfHeights(unit, { picture, report: { distortion, crossings,
 }
 
 /** The view of a mesh laid flat. @param {string} unit @param {MeshUnrolling} unrolled @returns {Promise<ViewContent>} */
-export async function sheetOfMesh(unit, { triangles, places, stretches, report: { sheets, strain, seamGap, missing } }) {
+export async function sheetOfMesh(unit, { triangles, places, stretches, report: { sheets, strain, seamGap, missing, simplified } }) {
   const picture = await callWorker('sheetStrainImage', triangles, places, stretches);
   return sheet(picture, unit, sheets === 1 ? 'One sheet, if the paper is large enough.' : `${count(sheets)} sheets.`, [
     ['Largest strain', percent(strain)],
     ['Seam gap of folds', `${numberAgainst(seamGap, picture.extent.width)} ${unit}`],
+    ...(simplified ? [/** @type {const} */ (['Flat faces that stand for it', `${count(simplified.faces)}, ${number(simplified.distance, 2)} ${unit} from it`])] : []),
     ...(missing.area > 0 ? [/** @type {const} */ (['Left out', `${number(missing.area)} ${areaUnit(unit)}`])] : []),
   ], percent(strain) !== percent(0));
 }

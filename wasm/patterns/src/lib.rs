@@ -15,9 +15,8 @@ use developable::files::drawings::{PdfOptions, TextureFile, write_dxf, write_pdf
 use developable::patches::{Crease, MeshPatches, Patch, PatchOptions};
 use developable::pattern::{
     FlatOptions, MeshKind, Missing, NetOptions, Pattern, PatternOptions, RecognizedMesh, Shape,
-    Sheet, lay_flat, pattern_mesh, sheet_metal,
+    Sheet, Simplified, lay_flat, sheet_metal,
 };
-use developable::progress;
 use developable::unroll::UnrollOptions;
 use developable_wasm::mesh::MeshInput;
 use developable_wasm::options::{OptionReader, read};
@@ -147,8 +146,7 @@ impl Wanted {
         Some(sides)
     }
 
-    /// Lays a surface flat and draws its sheets; returns JavaScript's `Drawing` object, with the assembly if it is wanted.
-    fn draw(&self, surface: Shape) -> Result<JsValue> {
+    fn lay_flat(&self, surface: Shape) -> Result<Pattern> {
         let options = FlatOptions {
             patches: self.patches,
             sheets: self.sheets,
@@ -156,7 +154,12 @@ impl Wanted {
             exact: self.own.exact,
             faces: self.own.faces,
         };
-        let found = lay_flat(surface, &options)?;
+        Ok(lay_flat(surface, &options)?)
+    }
+
+    /// Lays a surface flat and draws its sheets; returns JavaScript's `Drawing` object, with the assembly if it is wanted.
+    fn draw(&self, surface: Shape) -> Result<JsValue> {
+        let found = self.lay_flat(surface)?;
         let (drawn, sheets) = (Drawing::of(&found, &self.drawing)?, &found.sheets);
         let drawn = match self.own.stock {
             Some(stock) => drawn.onto(stock)?,
@@ -299,8 +302,10 @@ pub fn patches_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted: PatchOptions = read(&options)?;
     let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
     let found = MeshPatches::new(&mesh, &wanted)?;
+    // In JavaScript the label of no patch is −1.
+    let labels: Vec<i32> = found.labels().iter().map(|label| *label as i32).collect();
     Ok(to_value(&PatchesOutput {
-        labels: labels_of(&found),
+        labels: labels.as_slice().into(),
         patches: found.patches(),
         creases: found.creases(),
         bend: found.bend(),
@@ -311,9 +316,6 @@ pub fn patches_of_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
 #[derive(Serialize)]
 #[serde(rename = "MeshUnrolling")]
 struct UnrollingOutput<'a> {
-    /// Number of the patch of each triangle of the mesh, −1 for none.
-    #[serde(with = "preserve")]
-    labels: Int32Array,
     /// Coordinates x, y, z of each vertex of the sheets on the mesh, in the mesh's unit of length.
     #[serde(with = "preserve")]
     positions: Float64Array,
@@ -329,9 +331,9 @@ struct UnrollingOutput<'a> {
     /// The two singular values of each triangle's map from the mesh to the plane, the larger one first.
     #[serde(with = "preserve")]
     stretches: Float64Array,
-    /// The patches of the mesh, that with the largest area first.
+    /// The patches of the sheets, that with the largest area first.
     patches: &'a [Patch],
-    /// The creases between the patches.
+    /// The creases and cuts between the patches.
     creases: &'a [Crease],
     /// Measures of the sheets: number, area, strain and gaps at folds, and what is on no sheet.
     report: UnrollingReport,
@@ -351,14 +353,17 @@ struct UnrollingReport {
     seam_gap: f64,
     /// Parts of the mesh that cannot be laid flat and are on no sheet; all 0 if there are none.
     missing: Missing,
+    /// The flat faces that stand for the mesh, if no cut lays it flat or so few are wanted; the distance in the mesh's unit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    simplified: Option<Simplified>,
 }
 
-/// Cuts a mesh into flat sheets and lays them side by side; returns JavaScript's `MeshUnrolling` object.
+/// Lays a mesh flat, as its pattern, and its sheets side by side; returns JavaScript's `MeshUnrolling` object.
 #[wasm_bindgen(js_name = unroll)]
 pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
     let wanted = Wanted::of(&mesh, &options)?;
     let mesh = from_value::<MeshInput>(mesh)?.into_mesh()?;
-    let (patches, found) = sheets_of(&mesh, &wanted)?;
+    let found = wanted.lay_flat(Shape::Mesh(&mesh))?;
     let all = Joined::of(&found.sheets);
     let (mut places, mut right) = (Vec::new(), 0.0);
     for sheet in &found.sheets {
@@ -375,28 +380,22 @@ pub fn unroll_mesh(mesh: JsValue, options: JsValue) -> Result<JsValue> {
         .collect();
     let most = |of: fn(&Sheet) -> f64| found.sheets.iter().map(of).fold(0.0, f64::max);
     Ok(to_value(&UnrollingOutput {
-        labels: labels_of(&patches),
         positions: all.positions.as_flattened().into(),
         places: places.as_flattened().into(),
         triangles: all.triangles.as_flattened().into(),
         sheets: all.sheets.as_slice().into(),
         stretches: stretches.as_flattened().into(),
-        patches: patches.patches(),
-        creases: patches.creases(),
+        patches: &found.patches,
+        creases: &found.creases,
         report: UnrollingReport {
             sheets: found.sheets.len(),
             area: found.sheets.iter().map(|sheet| sheet.area).sum(),
             strain: most(|sheet| sheet.strain),
             seam_gap: most(|sheet| sheet.seam_gap),
             missing: found.missing,
+            simplified: found.simplified,
         },
     })?)
-}
-
-/// The number of each triangle's patch; in JavaScript the label of no patch is −1.
-fn labels_of(patches: &MeshPatches) -> Int32Array {
-    let labels: Vec<i32> = patches.labels().iter().map(|label| *label as i32).collect();
-    labels.as_slice().into()
 }
 
 /// The triangles of all sheets as one mesh, where they are on the surface.
@@ -422,12 +421,6 @@ impl Joined {
             sheets,
         }
     }
-}
-
-fn sheets_of(mesh: &Mesh, wanted: &Wanted) -> Result<(MeshPatches, Pattern)> {
-    let patches = progress::part(0.1, || MeshPatches::new(mesh, &wanted.patches))?;
-    let found = progress::part(0.95, || pattern_mesh(mesh, &patches, &wanted.sheets))?;
-    Ok((patches, found))
 }
 
 /// Reads the bending parameters of sheet metal: thickness, inner radius and k-factor. None without a thickness.

@@ -39,8 +39,8 @@ pub(super) struct PointGrid {
 impl Table {
     /// Reads a table. Lines before the first number are names of columns or comments.
     pub(super) fn read(text: &str) -> Result<Table> {
-        // Some programs quote their cells.
-        let text = &text.replace('"', "");
+        // Some programs quote their cells, or divide them by two letters.
+        let text = &text.replace('"', "").replace(",\t", ",");
         // A comma is a decimal one wherever something else divides the numbers.
         let is_divided = text.lines().any(|line| {
             // Names of columns and comments are no rows; a number may have an exponent.
@@ -59,10 +59,10 @@ impl Table {
         for (k, line) in text.lines().enumerate().skip(usize::from(is_numbered)) {
             let line = line.trim_end_matches([' ', '\r']);
             let mut row = match cells(line, is_divided) {
+                _ if line.starts_with('#') && rows > 0 => continue,
                 Ok(row) if rows > 0 || !row.iter().all(|value| value.is_nan()) => row,
                 Err(_) if rows > 0 => {
-                    let reason = format!("line {} is no row of numbers", k + 1);
-                    return Err(damaged(reason));
+                    return Err(damaged(format!("line {} is no row of numbers", k + 1)));
                 }
                 _ => {
                     let words = line.split(|letter: char| {

@@ -223,11 +223,8 @@ fn cells_of_tables_may_be_empty_or_number_the_others() {
         "1\t\t3\n4\t5\t \n7\t8\t9\n",
     ] {
         let (width, height, _, values) = read(text);
-        assert_eq!(
-            (width, height, values[0], values[8]),
-            (3, 3, 1.0, 9.0),
-            "{text}"
-        );
+        let found = (width, height, values[0], values[8]);
+        assert_eq!(found, (3, 3, 1.0, 9.0), "{text}");
         assert_eq!(missing(&values), [1, 5], "{text}");
     }
     // As pandas writes a table, with names or numbers of its columns, and as R does, which quotes them.
@@ -254,6 +251,8 @@ fn matrices_are_read() {
         "1,5\t2\t3\t4\r\n5\t6\t7\t8\r\n",
         "1,5; 2; 3; 4;\n5; 6; 7; 8;\n",
         "1.5,2,3,4\n5,6,7,8\n",
+        "1.5,\t2,\t3,\t4,\n5,\t6,\t7,\t8,\n",
+        "1.5 2 3 4\n# more\n5 6 7 8\n",
     ] {
         let numbers = vec![1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0];
         assert_eq!(read(text), (4, 2, 1.0, numbers), "{text}");

@@ -127,12 +127,12 @@ export function reportSimplified({ input, faces }, { simplified }, unit = 'mm') 
 }
 
 /** Warns of parts of the surface that are on no sheet. @param {import('../types.js').Drawing['summary']} summary */
-function reportMissing({ missing }) {
+function reportMissing({ missing, area: drawn }) {
   const squares = (/** @type {number} */ area) =>
     area < 100 ? `${Number(area.toPrecision(2))} mm²` : `${(area / 100).toFixed(area < 1000 ? 1 : 0)} cm²`;
   const words = [];
-  if (missing !== undefined && missing.vertices > 0) {
-    words.push(`${counted(missing.vertices, 'vertex', 'vertices')} (${squares(missing.area)}) left out, which lie flat with nothing beside them or are crumbs`);
+  if (missing !== undefined && missing.area > 0) {
+    words.push(`${squares(missing.area)} of the surface (${percent(missing.area / (missing.area + drawn), 2)}) on no sheet, which are crumbs or do not lie flat with what is around them`);
   }
   if (missing !== undefined && missing.steps > 0) {
     words.push(`the walls of ${counted(missing.steps, 'step')} (about ${squares(missing.stepArea)}) on no sheet`);

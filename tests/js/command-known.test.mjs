@@ -118,6 +118,15 @@ test('every command that fits tells smooth noise that it takes away, since that 
   }
 });
 
+test('what of a surface is on no sheet is told with its share', async () => {
+  const rough = (/** @type {number} */ x, /** @type {number} */ y) => (x > 54 && y > 54 ? 9 * Math.sin(2.1 * x) * Math.cos(1.7 * y) : 0);
+  await store('tip.npy', image(60, 60, (x, y) => 20 + 0.2 * x + rough(x, y)));
+  const { stderr } = await run(folder, 'pattern tip.npy -o tip.svg --as-is --report r.json');
+  const { missing, area } = JSON.parse(await readFile(join(folder, 'r.json'), 'utf8'));
+  const [, told, share] = stderr.match(/([\d.]+) mm² of the surface \(([\d.]+) %\) on no sheet/)?.map(Number) ?? [];
+  assert.ok(told > 5 && Math.abs(told - missing.area) < 1 && Math.abs(share - (100 * told) / (told + area)) < 0.1, stderr);
+});
+
 test('a tolerance is a distance or a share of the height range, in the command and in both APIs', async () => {
   const waves = image(60, 60, (x, y) => 10 + 3 * Math.sin(x / 7) * Math.cos(y / 9));
   await store('waves.npy', waves);

@@ -51,10 +51,7 @@ test('a plane comes back', () => {
 test('a lattice goes in and out as it is, without the spacing option', () => {
   const input = lattice(20, 24, (x, y) => cylinder(12)(x, -y), 0.5);
   const surface = direct.fit({ ...input, origin: [3, 4] }, { lambda: 'big' });
-  assert.deepEqual(
-    [surface.rows, surface.cols, surface.spacing, surface.origin, surface.image],
-    [20, 24, 0.5, [3, 4], undefined],
-  );
+  assert.deepEqual([surface.rows, surface.cols, surface.spacing, surface.origin, surface.image], [20, 24, 0.5, [3, 4], undefined]);
   assert.ok(deviation(surface.heights, input.heights) < 0.1);
   assert.throws(() => direct.fit(input, { spacing: 1 }), error('OPTION', /spacing/));
 });

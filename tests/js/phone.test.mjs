@@ -48,22 +48,13 @@ test('what cannot be is refused in plain words', () => {
   assert.throws(() => direct.dewarp(seen, upright), error('UNSUPPORTED', /lies on its side/));
   const wide = { width: 160, height: 90, data: new Uint8ClampedArray(4 * 160 * 90) };
   assert.throws(() => direct.dewarp(seen, wide), error('UNSUPPORTED', /another part of the scene/));
-  assert.throws(
-    () => direct.backProject(depths(), { ...numbers, cx: 960, cy: 720 }),
-    error('OPTION', /images of another size/),
-  );
+  assert.throws(() => direct.backProject(depths(), { ...numbers, cx: 960, cy: 720 }), error('OPTION', /images of another size/));
   assert.throws(() => direct.dewarp(seen, picture, { camera: /** @type {any} */ ({ ...photoCamera, extent: 3 }) }), error('OPTION', /extent/));
-  assert.throws(
-    () => direct.dewarp(seen, picture, { camera: photoCamera, extent: [0, 0, 1, 1] }),
-    error('OPTION', /leave it or `camera` out/),
-  );
+  assert.throws(() => direct.dewarp(seen, picture, { camera: photoCamera, extent: [0, 0, 1, 1] }), error('OPTION', /leave it or `camera` out/));
   const heights = { width: 20, height: 20, data: new Float64Array(400) };
   assert.throws(() => direct.dewarp(heights, picture, { camera: photoCamera }), error('OPTION', /backProject/));
   const rotation = [[1, 0, 0], [0, 1, 0], [0, 0, -1]];
-  assert.throws(
-    () => direct.dewarp(seen, picture, { camera: { ...photoCamera, rotation: /** @type {any} */ (rotation) } }),
-    error('OPTION', /rotation/),
-  );
+  assert.throws(() => direct.dewarp(seen, picture, { camera: { ...photoCamera, rotation: /** @type {any} */ (rotation) } }), error('OPTION', /rotation/));
 });
 
 test('the command takes what capture apps write', async () => {
@@ -181,10 +172,7 @@ test('a part of the photo, with straight edges, and no table beside it', async (
   const { parts } = JSON.parse(await readFile(join(folder, 'report.json'), 'utf8'));
   assert.equal(parts, 1);
   assert.throws(() => direct.dewarp(seen, picture, { crop: [[0, 0], [1, 1]] }), error('OPTION', /three or more corners/));
-  assert.throws(
-    () => direct.dewarp(seen, picture, { crop: [[0, 0], [1, 0], [0, 1]] }),
-    error('UNSUPPORTED', /nothing of the sheet lies within/),
-  );
+  assert.throws(() => direct.dewarp(seen, picture, { crop: [[0, 0], [1, 0], [0, 1]] }), error('UNSUPPORTED', /nothing of the sheet lies within/));
 });
 
 /** ARKit's levels for depths, row by row: from the right 0, a strip that is 1, the rest 2. @param {number} i */

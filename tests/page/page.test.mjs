@@ -166,6 +166,13 @@ sharedDoorTest('a page that is not found has no flat page, no figure and no file
   await page.keyboard.press('Control+z');
   await page.locator('#page-side[data-state="unfound"]').waitFor();
   assert.ok(await save.isDisabled());
+  // A flatbed's scan shows nothing beside the page.
+  await page.getByRole('button', { name: 'Take the whole photo' }).click();
+  await flattened(page);
+  assert.deepEqual(await placeOf(page, 'Lower right corner'), [799, 599]);
+  assert.ok(await save.isEnabled());
+  await page.keyboard.press('Control+z');
+  await page.locator('#page-side[data-state="unfound"]').waitFor();
 });
 
 doorTest('photos that are opened together become one PDF, each with its own outline', async (page) => {

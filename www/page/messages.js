@@ -6,6 +6,7 @@ import { count, number } from '../format.js';
 /** Texts about a photo of a page. */
 export const PAGE_WORDS = {
   unfound: 'I found no page in this photo. If it shows one, drag the four corners onto it.',
+  takeWhole: 'Take the whole photo',
   /** @param {number} corners that are not placed yet */
   unplaced: (corners) => `The flat page appears when ${corners === 4 ? 'all four are placed' : corners === 1 ? 'the last one is placed' : `the other ${count(corners)} are placed, too`}.`,
   noFlat: 'No flat page from this outline.',

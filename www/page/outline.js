@@ -47,11 +47,12 @@ export class Outline {
     return new Outline(/** @type {Edges} */ ([[ul, ur], [ll, lr], [ul, ll], [ur, lr]].map((ends) => ends.map((place) => nodeAt(place, true)))));
   }
 
-  /** The default outline for a photo without a detected page: a rectangle in its middle. @param {{ width: number, height: number }} photo */
-  static defaultFor({ width, height }) {
+  /** The rectangle in the middle of a photo, `margin` of its size away from each side. @param {{ width: number, height: number }} photo @param {number} [margin] */
+  static inside({ width, height }, margin = 0.15) {
     /** @type {(x: number, y: number) => Point} */
     const at = (x, y) => [x * (width - 1), y * (height - 1)];
-    return Outline.fromCorners([at(0.15, 0.15), at(0.85, 0.15), at(0.85, 0.85), at(0.15, 0.85)]);
+    const [near, far] = [margin, 1 - margin];
+    return Outline.fromCorners([at(near, near), at(far, near), at(far, far), at(near, far)]);
   }
 
   /** The outline of a detected page. @param {DetectedEdges} page */

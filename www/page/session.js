@@ -31,7 +31,7 @@ export class PageSession extends Events {
   /** @type {PagePhoto | null} */
   photo = null;
   /** @type {Outline} */
-  outline = Outline.defaultFor({ width: 1, height: 1 });
+  outline = Outline.inside({ width: 1, height: 1 });
   /** Index of the detected page that is flattened. */
   pageIndex = 0;
   /** Indices of the corners that were moved by hand. @type {ReadonlySet<number>} */
@@ -116,25 +116,23 @@ export class PageSession extends Events {
     this.emit('working', isOpening || (this.#isFlattening && this.#latestRequest !== null));
   }
 
-  /** Selects another detected page. @param {number} page its index */
-  choosePage(page) {
-    if (!this.photo?.outlines.pages[page]) return;
+  /** Goes back to the detected outline, or to that of another detected page. @param {number} [page] its index @param {number} [pages] number of pages within it */
+  reset(page = this.pageIndex, pages = this.outline.pages) {
+    if (!this.photo) return;
     this.pageIndex = page;
-    this.#resetOutline(this.photo, 1);
+    this.#resetOutline(this.photo, pages);
     this.#update();
   }
 
-  /** Goes back to the detected outline. */
-  reset() {
-    if (!this.photo) return;
-    this.#resetOutline(this.photo, this.outline.pages);
-    this.#update();
+  /** Takes the whole photo for the page, as of a flatbed scan. */
+  takeWhole() {
+    if (this.photo) this.restore({ ...this.state(), outline: Outline.inside(this.photo, 0), movedCorners: new Set(EDGES) });
   }
 
   /** Sets the outline to the detected or the default one. @param {PagePhoto} photo @param {number} pages */
   #resetOutline(photo, pages) {
     const found = photo.outlines.verdict === 'notFound' ? undefined : photo.outlines.pages[this.pageIndex];
-    this.outline = found ? Outline.fromDetected(found) : Outline.defaultFor(photo);
+    this.outline = found ? Outline.fromDetected(found) : Outline.inside(photo);
     [this.movedCorners, this.isOutlineChanged] = [new Set(), false];
     this.traces = this.#outlineTraces();
     if (pages === 2) this.#splitAtGutter();

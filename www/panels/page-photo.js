@@ -75,8 +75,9 @@ export function pagePhotoPanel(session, history) {
     handles.setPhoto(photo);
     box.hidden = false;
     const { verdict, pages } = photo.outlines;
-    several.hidden = verdict !== 'several' || pages.length < 2;
-    several.replaceChildren(PAGE_WORDS.several, ...pages.map((_, i) => makeButton('', () => session.choosePage(i), PAGE_WORDS.choosePage(i + 1))));
+    const isNone = verdict === 'notFound';
+    several.hidden = !isNone && (verdict !== 'several' || pages.length < 2);
+    several.replaceChildren(...(isNone ? [makeButton('', () => session.takeWhole(), PAGE_WORDS.takeWhole)] : [PAGE_WORDS.several, ...pages.map((_, i) => makeButton('', () => session.reset(i, 1), PAGE_WORDS.choosePage(i + 1)))]));
     element('page-empty', HTMLElement).hidden = true;
     assumed.textContent = assumedInWords(photo.assumptions);
     assumed.hidden = assumed.textContent === '';

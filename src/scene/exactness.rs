@@ -6,22 +6,22 @@ use super::polyhedron::Polyhedron;
 use crate::math::statistics::median;
 
 /// Minimum share of the facets that are strips of bends, and maximum share of those that are neither strips nor faces. Of
-/// triangles with noise, however steep, less than half have two neighbours at small angles.
+/// triangles with noise, however steep, less than half have two neighbours at small angles (`benches/exactness.md`).
 const MIN_STRIP_SHARE: f64 = 0.5;
 
 /// Minimum share of the edges whose ends bend the same way, less that of the others: what noise lifts makes valleys around it
 /// (`benches/exactness.md`).
 const MIN_ALIKE_SHARE: f64 = 0.25;
 
-/// Minimum median angle, in degrees, between the faces of a low-poly model; a ball of 500 triangles has 9.
+/// Minimum median angle, in degrees, between the faces of a low-poly model; a ball of 500 triangles has 9 (`benches/exactness.md`).
 const MIN_LOW_POLY_ANGLE: f64 = 8.0;
 
 /// Maximum number of faces of a model that is built face by face, however little these fold: a ball of as many folds by 9
-/// degrees at each edge, other surfaces by less.
+/// degrees at each edge, other surfaces by less (`benches/exactness.md`).
 pub const MAX_FEW_FACES: usize = 500;
 
-/// Minimum share of the area of a mesh without noise that lies in planes of several triangles.
-const MIN_PLANAR_SHARE: f64 = 0.5;
+/// Minimum share of the area of a mesh without noise that lies in planes of several triangles (`benches/exactness.md`).
+const MIN_PLANAR_SHARE: f64 = 0.1;
 
 /// The part of a mesh that is exact, so that nothing is gained by a fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +30,7 @@ pub enum Exactness {
     /// The faces: the mesh is made of strips that bend, or its vertices have no noise and its faces are planes of several
     /// triangles, or meet at large angles. [`pattern_exact`](crate::pattern::pattern_exact) lays such a mesh flat as it is.
     Faces,
-    /// The vertices, though the faces may be those of a smooth surface: half of the area lies in planes of several triangles to
+    /// The vertices, though the faces may be those of a smooth surface: a tenth of the area lies in planes of several triangles to
     /// rounding, and bends are alike at neighbours.
     Vertices,
     /// Nothing: the vertices have noise, or may have.

@@ -21,7 +21,7 @@ const ROUNDING_SHARE: f64 = 1e-6;
 /// numbers of 32 bits or of six digits.
 const ROUNDING_UNITS: f64 = 4.0;
 
-/// Largest angle between neighbouring facets of a bend, in radians: circles of 16 sides or more.
+/// Largest angle between neighbouring facets of a bend, in radians: circles of 16 sides or more (`benches/exactness.md`).
 pub(crate) const MAX_BEND_STEP: f64 = 0.4;
 
 /// A mesh whose triangles belong to flat facets. Half-edges are numbered as in [`half_edge_ends`].

@@ -801,6 +801,33 @@ fn models_of_few_faces_are_built_face_by_face_however_little_these_fold() {
     assert_eq!(saddle(10, 0.0), MeshKind::Faces);
     assert_eq!(saddle(10, 0.1), MeshKind::Faces);
     assert_eq!(saddle(20, 0.1), MeshKind::Noisy);
+    // A plate with a round bump: what lies in its plane to rounding is no scan, unless the bump has noise.
+    let bump = |noise: f64| {
+        let (n, mut random) = (30u32, Random::new(3));
+        let mut point = |i: u32| {
+            let [x, y] = [i % n, i / n].map(|k| f64::from(k) - 14.5);
+            let near = 1.0 - x.hypot(y) / 13.0;
+            let rough = noise * random.normal();
+            [
+                x,
+                y,
+                if near > 0.0 {
+                    3.0 * near * near * (3.0 - 2.0 * near) + rough
+                } else {
+                    0.0
+                },
+            ]
+        };
+        let points = (0..n * n).map(&mut point).collect();
+        let squares = (0..n - 1).flat_map(|j| (0..n - 1).map(move |i| j * n + i));
+        let triangles = squares.flat_map(|a| match (7 * a) % 5 < 2 {
+            true => [[a, a + 1, a + n + 1], [a, a + n + 1, a + n]],
+            false => [[a, a + 1, a + n], [a + 1, a + n + 1, a + n]],
+        });
+        kind(points, triangles.collect())
+    };
+    assert_eq!(bump(0.0), MeshKind::Surface);
+    assert_eq!(bump(0.1), MeshKind::Noisy);
     // An open pyramid of many sides, whose tip bends by more than all other vertices together.
     let sides = 14u32;
     let mut points = vec![[0.0, 0.0, 60.0]];

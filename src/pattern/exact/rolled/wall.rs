@@ -14,11 +14,11 @@ use crate::math::planar::{Point2, distance, distance_to_segment, nearest_on_segm
 use crate::scene::polyhedron::{MAX_BEND_STEP, Place};
 
 /// Maximum cosine of the angle between the rulings of a wall and the normal of one of its facets, which may reach over several chords of the
-/// profile. No table chose it.
+/// profile (`benches/exactness.md`).
 const MAX_WALL_LEAN: f64 = 0.1;
 
-/// Number of edges, the nearest to the rulings as the facets' normals show them, among which those along the rulings are looked for. No table
-/// chose it.
+/// Number of edges, the nearest to the rulings as the facets' normals show them, among which those along the rulings are looked for
+/// (`benches/exactness.md`).
 const MAX_WALL_EDGES: usize = 64;
 
 /// Minimum share of the rulings from corners of a wall's rim that meet another one of them: few do by chance. No table chose it.

@@ -77,7 +77,8 @@ test('the commands', async () => {
   assert.equal(obj.match(/^v /gm)?.length, sheet.vertices.length);
   assert.equal(obj.match(/^f /gm)?.length, sheet.triangles.length / 3);
 
-  assert.deepEqual(await run(folder, 'dewarp scan.npy --texture photo.png -o flat.png --trim --map map.npy'), silent);
+  const fitted = await run(folder, 'dewarp scan.npy --texture photo.png -o flat.png --trim --map map.npy');
+  assert.match(fitted.stderr, /^developable: this input has no noise, so the surface keeps to its heights, but for 0\.00\d+ .*\n$/);
   const flat = direct.readPhoto(await readFile(join(folder, 'flat.png')));
   const map = await readFile(join(folder, 'map.npy'));
   assert.ok(map.toString('latin1', 0, 128).includes(`(${flat.height}, ${flat.width}, 2)`));

@@ -21,7 +21,11 @@ const MIN_LOW_POLY_ANGLE: f64 = 8.0;
 pub const MAX_FEW_FACES: usize = 500;
 
 /// Minimum share of the area of a mesh without noise that lies in planes of several triangles (`benches/exactness.md`).
-const MIN_PLANAR_SHARE: f64 = 0.1;
+const MIN_PLANAR_SHARE: f64 = 0.15;
+
+/// Minimum number of edges between the triangles of a plane that counts whole; planes of fewer, in which triangles of a scan lie by
+/// chance, count by their number (`benches/exactness.md`).
+const FULL_PLANE_EDGES: f64 = 5.0;
 
 /// The part of a mesh that is exact, so that nothing is gained by a fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +34,7 @@ pub enum Exactness {
     /// The faces: the mesh is made of strips that bend, or its vertices have no noise and its faces are planes of several
     /// triangles, or meet at large angles. [`pattern_exact`](crate::pattern::pattern_exact) lays such a mesh flat as it is.
     Faces,
-    /// The vertices, though the faces may be those of a smooth surface: a tenth of the area lies in planes of several triangles to
+    /// The vertices, though the faces may be those of a smooth surface: a part of the area lies in planes of several triangles to
     /// rounding, and bends are alike at neighbours.
     Vertices,
     /// Nothing: the vertices have noise, or may have.
@@ -87,13 +91,10 @@ pub(crate) fn has_few_faces(solid: &Polyhedron) -> bool {
 }
 
 fn are_vertices_exact(solid: &Polyhedron) -> bool {
-    let mut counts = vec![0; solid.areas.len()];
-    (solid.facets.iter()).for_each(|facet| counts[*facet as usize] += 1);
-    let planar = counts
-        .iter()
-        .zip(&solid.areas)
-        .filter(|(count, _)| **count > 1);
-    let planar: f64 = planar.map(|(_, area)| area).sum();
+    let mut counts = vec![0.0; solid.areas.len()];
+    (solid.facets.iter()).for_each(|facet| counts[*facet as usize] += 1.0);
+    let of_plane = |(count, area): (&f64, &f64)| area * ((count - 1.0) / FULL_PLANE_EDGES).min(1.0);
+    let planar: f64 = counts.iter().zip(&solid.areas).map(of_plane).sum();
     planar >= MIN_PLANAR_SHARE * solid.areas.iter().sum::<f64>() && has_no_noise(solid)
 }
 

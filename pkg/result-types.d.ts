@@ -786,7 +786,7 @@ export interface MeshAnalysis {
 }
 
 /**
- * What a mesh is, of what a fit gains.
+ * The kind of a mesh, which decides whether a fit gains anything and how the mesh is laid flat.
  * - `'faces'`: Its faces are exact, as in CAD and low-poly models, or few, and are moved into the plane as they are.
  * - `'bends'`: As `faces`, but some of its bends are triangulated irregularly, and are divided along their lines first.
  * - `'noisyFaces'`: Its vertices have noise about flat faces, as in scans of roofs and boxes; the faces are laid flat

@@ -54,24 +54,25 @@ pub struct FlatOptions {
 /// ```
 ///
 /// # Errors
-/// Those of the calls named, of which [`Error::NotFlat`] only where `faces` is given; [`Error::Option`] for edges that a person decides
+/// The errors of the calls named, of which [`Error::NotFlat`] only where `faces` is given; [`Error::Option`] for edges that a person decides
 /// about where the surface is cut.
 pub fn lay_flat(surface: Shape, options: &FlatOptions) -> Result<Pattern> {
-    let mesh = || match surface {
-        Shape::Mesh(mesh) => Ok(mesh.clone()),
-        Shape::Heights(field) => Ok(Triangulation::new(field, &Frame::default())?.into_mesh()),
+    let simplified = |faces| match surface {
+        Shape::Mesh(mesh) => pattern_simplified(mesh, faces, &options.net),
+        Shape::Heights(field) => {
+            let mesh = Triangulation::new(field, &Frame::default())?.into_mesh();
+            pattern_simplified(&mesh, faces, &options.net)
+        }
     };
     if let Some(faces) = options.faces.filter(|faces| *faces > 0) {
-        return pattern_simplified(&mesh()?, faces, &options.net);
+        return simplified(faces);
     }
     let found = match surface {
         Shape::Heights(field) => cut_heights(field, options),
         Shape::Mesh(mesh) => pattern_of_mesh(mesh, options),
     };
     match found {
-        Err(Error::NotFlat { .. }) if options.faces.is_none() => {
-            pattern_simplified(&mesh()?, MAX_FEW_FACES, &options.net)
-        }
+        Err(Error::NotFlat { .. }) if options.faces.is_none() => simplified(MAX_FEW_FACES),
         found => found,
     }
 }

@@ -8,7 +8,7 @@ use crate::scene::exactness::{Exactness, has_few_faces};
 use crate::scene::mesh::Mesh;
 use crate::scene::polyhedron::Polyhedron;
 
-/// What a mesh is, of what a fit gains.
+/// The kind of a mesh, which decides whether a fit gains anything and how the mesh is laid flat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -30,7 +30,7 @@ pub enum MeshKind {
     Noisy,
 }
 
-/// What a mesh is, and the faces that were found in it.
+/// The kind of a mesh, and the faces that were found in it.
 #[derive(Default)]
 #[non_exhaustive]
 pub struct RecognizedMesh {

@@ -22,7 +22,8 @@ const MAX_OPPOSITE_COSINE: f64 = -0.9;
 /// give.
 const MAX_THICKNESS_SHARE: f64 = 0.1;
 
-/// Maximum mean cosine of the angle between the larger skin, or both, and the rim along them: a blank is cut straight through. 0 where edges are sharp or slanted alike on both skins, 0.7 where they are chamfered (`benches/exactness.md`).
+/// Maximum mean cosine of the angle between the larger skin, or both, and the rim along them: a blank is cut straight through. It is 0
+/// where edges are sharp or slanted alike on both skins, 0.7 where they are chamfered (`benches/exactness.md`).
 const MAX_MEAN_LEAN: f64 = 0.1;
 
 /// Maximum product of the numbers of facets and triangles: some seconds of search in wasm.

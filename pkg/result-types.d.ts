@@ -1427,7 +1427,8 @@ export interface SolveSeconds {
  * - `'residuals'`: The residuals fell below the tolerances of the schedule `'paper'`.
  * - `'rounding'`: Objective and dual bound differ by no more than rounding errors: the surface is optimal as far as
  *   double precision can tell. This is the reason for an affine input.
- * - `'maxIterations'`: The number of iterations reached the option `maxIterations`.
+ * - `'maxIterations'`: The number of iterations reached the option `maxIterations` before the duality gap was as small
+ *   as asked for.
  * - `'cancelled'`: The progress callback, or `cancel`, asked to stop; in JavaScript the option `signal` with `onAbort:
  *   'keep'`.
  * - `'noNoise'`: A mesh has no noise, or less than a hundredth of the spacing of its vertices, and λ was to suit its

@@ -224,8 +224,9 @@ impl ComponentSolver {
         (next < self.components.list.len()).then_some(next)
     }
 
-    /// Returns the least successful of the reasons why components stopped. If rounding errors of some components exceed
-    /// the duality gap of all together, the reason is not [`StopReason::Gap`].
+    /// Returns the least successful of the reasons why components stopped. The duality gap is that of all together: it
+    /// may be small enough although some components were stopped by their number of iterations, and rounding errors of
+    /// some may exceed it.
     fn reason(&self) -> StopReason {
         let mut total = Totals::default();
         for answer in &self.answers {
@@ -240,12 +241,13 @@ impl ComponentSolver {
             StopReason::Diverged,
             StopReason::MaxIterations,
             StopReason::Residuals,
-            StopReason::Gap,
         ]
         .into_iter()
-        .find(|reason| any(*reason))
-        .filter(|reason| *reason != StopReason::Gap || certified)
-        .unwrap_or(StopReason::Rounding)
+        .find(|reason| any(*reason) && !(certified && *reason == StopReason::MaxIterations))
+        .unwrap_or(match certified {
+            true => StopReason::Gap,
+            false => StopReason::Rounding,
+        })
     }
 
     /// Continues the solve until `left` conjugate-gradient iterations are used up.

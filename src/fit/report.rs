@@ -19,7 +19,8 @@ pub enum StopReason {
     /// Objective and dual bound differ by no more than rounding errors: the surface is optimal as far as double
     /// precision can tell. This is the reason for an affine input.
     Rounding,
-    /// The number of iterations reached the option [`Options::max_iterations`](crate::Options::max_iterations).
+    /// The number of iterations reached the option [`Options::max_iterations`](crate::Options::max_iterations) before the
+    /// duality gap was as small as asked for.
     MaxIterations,
     /// The progress callback, or [`Solver::cancel`](crate::Solver::cancel), asked to stop; in JavaScript the option `signal`
     /// with `onAbort: 'keep'`.

@@ -25,7 +25,7 @@ const DEFAULT_MAX_ITERATIONS: usize = 20_000;
 
 /// Maximum number of ADMM iterations on the finest level where neither it nor a smaller gap than the default is asked for
 /// (`benches/choices.md`, Jumps).
-const MAX_FINEST_ITERATIONS: usize = 200;
+const MAX_FINEST_ITERATIONS: usize = 400;
 
 /// Minimum number of interior vertices of a coarse multigrid level: a smaller lattice saves nothing
 /// (`benches/choices.md`, Schedule by ablation).

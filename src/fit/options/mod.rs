@@ -125,7 +125,7 @@ impl Options {
         self
     }
 
-    /// Sets the maximum number of ADMM iterations, at least 1; default 20 000, and 200 of these on the finest lattice for a gap that
+    /// Sets the maximum number of ADMM iterations, at least 1; default 20 000, and 400 of these on the finest lattice for a gap that
     /// is not below the default, so that no input takes far longer than others of its size.
     pub fn max_iterations(mut self, max_iterations: usize) -> Self {
         self.max_iterations = Some(max_iterations);

@@ -2,14 +2,7 @@
 
 /** @typedef {InstanceType<Api['DevelopableWorker']>} Worker */
 
-/**
- * Runs a task in a new worker, which is disposed of when the task ends or is aborted.
- * @template T
- * @param {Api} api
- * @param {AbortSignal} signal
- * @param {(worker: Worker) => Promise<T>} task
- * @returns {Promise<T>}
- */
+/** Runs a task in a new worker, which is disposed of when the task ends or is aborted. @template T @param {Api} api @param {AbortSignal} signal @param {(worker: Worker) => Promise<T>} task */
 export async function runInWorker(api, signal, task) {
   signal.throwIfAborted();
   const worker = new api.DevelopableWorker();
@@ -56,14 +49,7 @@ export class Tasks {
     }
   }
 
-  /**
-   * The answer to a question: the cached one, or that of a new task. A failed answer is not kept, so that the question may be asked again.
-   * @template T
-   * @param {object} subject
-   * @param {string} question key of the question
-   * @param {(worker: Worker) => Promise<T>} task
-   * @returns {Promise<T>}
-   */
+  /** The answer to a question: the cached one, or that of a new task; a failed answer is not kept. @template T @param {object} subject @param {string} question its key @param {(worker: Worker) => Promise<T>} task @returns {Promise<T>} */
   answer(subject, question, task) {
     const answers = this.#answers.get(subject) ?? new Map();
     this.#answers.set(subject, answers);

@@ -1,5 +1,6 @@
 /** The page as a folder of static files: under a path of its own, with few requests, without a network, and renewed as a whole. */
 import assert from 'node:assert/strict';
+import { subscribe } from 'node:diagnostics_channel';
 import { mkdtemp, readFile, readdir, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -9,6 +10,16 @@ import { serve } from '../../tools/serve.mjs';
 import { writeSite } from '../../tools/site.mjs';
 import { pageTest, settled } from './support/page.mjs';
 import { colouredPicture } from './support/photos.mjs';
+
+/** What service workers fetch at the moment, and how much of it at once at most. */
+const kept = { now: 0, most: 0 };
+/** Counts what a service worker begins and ends to fetch. @param {string} event @param {number} change */
+const countKept = (event, change) => subscribe(`http.server.${event}`, (message) => {
+  const { request } = /** @type {{ request: import('node:http').IncomingMessage }} */ (message);
+  if (request.headers.referer?.endsWith('/sw.js')) kept.most = Math.max(kept.most, (kept.now += change));
+});
+countKept('request.start', 1);
+countKept('response.finish', -1);
 
 /** Waits for the pictures of a guide. @param {import('playwright-core').Page} page */
 async function loaded(page) {
@@ -30,6 +41,8 @@ pageTest('the site works under any path and without a network, and is renewed as
     // The page's own: what the service worker keeps for later comes besides.
     visit.on('request', (request) => asked.push(request.url()));
     await visit.goto(`${server.url}some/where/#example=cone&size=100&noise=0.02`);
+    await visit.locator('#certificate').waitFor();
+    assert.equal(kept.most, 0, 'what is kept for later is not fetched before the answer');
     await settled(visit);
     const own = asked.filter((url) => !/(sw|register)\.js$|manifest/.test(url) && !url.startsWith('blob:'));
     assert.ok(own.every((url) => url.startsWith(`${server.url}some/where/`)), String(own));
@@ -38,6 +51,7 @@ pageTest('the site works under any path and without a network, and is renewed as
 
     // Everything is kept once the worker is there.
     await visit.evaluate(async () => { await navigator.serviceWorker.ready; });
+    assert.equal(kept.most, 1, 'files are kept one by one');
     // Guides are linked from the page, and what of them is opened is kept, pictures too.
     const guide = await context.newPage();
     await guide.goto(visit.url().replace(/#.*/, ''));

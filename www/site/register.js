@@ -1,5 +1,18 @@
 /** Registers the service worker, which keeps the page for use without a network, and offers new versions. */
 const { serviceWorker } = navigator;
+/** The page while something is being opened or solved. */
+const BUSY = 'main:is([data-phase="starting"], [data-phase="running"], [data-opening]), main [aria-busy="true"]';
+const changes = new MutationObserver(registerWhenIdle);
+
+/** Registers the worker when the page has nothing to do: the files that it fetches would delay an answer. */
+function registerWhenIdle() {
+  // A solve follows an opening at once.
+  setTimeout(() => {
+    if (document.querySelector(BUSY)) return;
+    changes.disconnect();
+    serviceWorker.register('./sw.js').then(watch, () => {});
+  });
+}
 
 /** Offers a new version when it is installed. @param {ServiceWorkerRegistration} registration */
 function watch(registration) {
@@ -19,6 +32,6 @@ function watch(registration) {
 if (serviceWorker) {
   // The address keeps what is shown.
   serviceWorker.addEventListener('message', ({ data }) => data === 'renewed' && location.reload());
-  // Registration waits until the page is loaded.
-  addEventListener('load', () => serviceWorker.register('./sw.js').then(watch, () => {}));
+  changes.observe(document.body, { subtree: true, attributeFilter: ['data-phase', 'data-opening', 'aria-busy'] });
+  registerWhenIdle();
 }

@@ -27,13 +27,19 @@ const servedCache = async () => caches.open((await cacheNames())[0] ?? OWN_CACHE
 const listen = (name, act) => worker.addEventListener(name, (event) => act(/** @type {WorkerEvent} */ (event)));
 
 listen('install', (event) => {
-  // The browser's own cache may hold files of an older version: the server is asked, and sends only those that have changed.
-  event.waitUntil(caches.open(OWN_CACHE).then((cache) => cache.addAll(files.map((file) => new Request(file, { cache: 'no-cache' })))));
+  event.waitUntil(keepAll());
 });
 listen('activate', (event) => event.waitUntil(deleteOtherCaches()));
 listen('message', (event) => {
   if (event.data === 'take over') event.waitUntil(takeOver());
 });
+
+/** Fetches the files one by one, since the page may need the network too. */
+async function keepAll() {
+  const cache = await caches.open(OWN_CACHE);
+  // The browser's own cache may hold files of an older version: the server is asked, and sends only those that have changed.
+  for (const file of files) await cache.add(new Request(file, { cache: 'no-cache' }));
+}
 
 /** Serves this version from now on, and lets all tabs reload, because the files of the old version are deleted. */
 async function takeOver() {

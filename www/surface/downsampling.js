@@ -1,18 +1,8 @@
 /** Reduces height images. */
 
-/**
- * @typedef {object} Heights
- * @property {number} width
- * @property {number} height
- * @property {ArrayLike<number>} data row by row, NaN for no data
- * @property {number} [pixelSize] 1 unless said otherwise
- */
+/** @typedef {{ width: number, height: number, data: ArrayLike<number>, pixelSize?: number }} Heights row by row, NaN for no data; pixels are 1 wide unless said otherwise */
 
-/**
- * The mean of the values in each block of pixels; NaN for a block without data.
- * @param {Heights} image
- * @param {number} maxBlocks maximum number of blocks along the longer side
- */
+/** The mean of the values in each block of pixels; NaN for a block without data. @param {Heights} image @param {number} maxBlocks maximum number of blocks along the longer side */
 export function downsample({ width, height, data, pixelSize = 1 }, maxBlocks) {
   const share = Math.min(1, maxBlocks / Math.max(width, height));
   const [cols, rows] = [Math.max(3, Math.round(width * share)), Math.max(3, Math.round(height * share))];

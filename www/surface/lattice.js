@@ -8,14 +8,7 @@
  * @property {readonly [number, number]} [origin] of vertex (0, 0), y up
  */
 
-/**
- * @typedef {object} Grid the pixels of an image in the plane of the lattice
- * @property {number} width
- * @property {number} height
- * @property {number} pixelSize
- * @property {number} left
- * @property {number} top
- */
+/** @typedef {{ width: number, height: number, pixelSize: number, left: number, top: number }} Grid the pixels of an image in the plane of the lattice */
 
 /** Distance of two rows of the lattice, in spacings. */
 export const ROW_SPACING_RATIO = Math.sqrt(3) / 2;

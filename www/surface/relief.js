@@ -5,14 +5,7 @@ import { gridOf } from './lattice.js';
 
 /** @import {Box, Surface} from './scene.js' */
 
-/**
- * @typedef {object} Relief
- * @property {number} width
- * @property {number} height
- * @property {ArrayLike<number>} heights row by row, NaN for no data
- * @property {number} heightScale unit of length per unit of the heights
- * @property {{ left: number, top: number, width: number, height: number }} extent in the unit of length
- */
+/** @typedef {{ width: number, height: number, heights: ArrayLike<number>, heightScale: number, extent: { left: number, top: number, width: number, height: number } }} Relief heights row by row, NaN for no data; `heightScale`: unit of length for each of theirs; `extent` in that unit */
 
 /**
  * Maximum number of vertices along a side of a drawn surface: about the pixels of a screen. Without a graphics card the processor

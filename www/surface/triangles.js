@@ -65,12 +65,7 @@ export function sidesOf(places, dimensions) {
   return high.map((value, k) => value - low[k]);
 }
 
-/**
- * A value of vertices at a place between them.
- * @param {{ triangles: Uint32Array }} mesh
- * @param {Pick<Place, 'triangle' | 'shares'>} place
- * @param {(vertex: number) => number} value
- */
+/** A value of vertices at a place between them. @param {{ triangles: Uint32Array }} mesh @param {Pick<Place, 'triangle' | 'shares'>} place @param {(vertex: number) => number} value */
 export function interpolateAt({ triangles }, { triangle, shares }, value) {
   return shares.reduce((sum, share, corner) => sum + share * value(triangles[3 * triangle + corner]), 0);
 }

@@ -19,7 +19,7 @@ import { Problem, main } from './util/problem.mjs';
 /** Imports that a server without a build step takes as they are, and a bundler has to be told of. */
 const IMPORTS = [
   { file: 'api.js', from: "new URL('./pkg/index.js', import.meta.url).href", to: "'../pkg/index.js'" },
-  { file: 'api.js', from: "new URL('./pkg/wasm/solver_bg.wasm', import.meta.url)", to: "new URL('../pkg/wasm/solver_bg.wasm', import.meta.url)" },
+  { file: 'early.js', from: "new URL('./pkg/wasm/solver_bg.wasm', import.meta.url)", to: "new URL('../pkg/wasm/solver_bg.wasm', import.meta.url)" },
   { file: join('panels', 'report.js'), from: "new URL('../pkg/package.json', import.meta.url).href, { with: { type: 'json' } }", to: "'../../pkg/package.json'" },
   { file: join('surface', 'scene.js'), from: "new URL('../vendor/three.js', import.meta.url).href", to: "'../vendor/three.js'" },
   { file: 'zip.js', from: "new URL('./vendor/fflate.js', import.meta.url).href", to: "'./vendor/fflate.js'" },
@@ -61,7 +61,7 @@ export async function bundlePage(folder) {
       },
       // The package is fetched beside the page's own modules, not after them.
       transformIndexHtml: (html, { bundle: files = {} }) => ({
-        html: html.replace(/\n\s+/g, '\n'),
+        html: html.replace(/\n\s+/g, '\n').replace('./early.js', Object.keys(files).find((name) => /\/early-/.test(name)) ?? ''),
         tags: Object.keys(files).filter((name) => /\/pkg-[^/]*\.js$/.test(name)).map((name) => ({ tag: 'link', attrs: { rel: 'modulepreload', href: `./${name}` } })),
       }),
     }],
@@ -72,7 +72,7 @@ export async function bundlePage(folder) {
       modulePreload: false,
       chunkSizeWarningLimit: 2000,
       // The page asks for two modules of the package, one after the other, which would be two requests.
-      rolldownOptions: { output: { codeSplitting: { groups: [{ name: 'pkg', test: /\/pkg\/(?:index|wire)\.js$/ }] } } },
+      rolldownOptions: { input: [join(www, 'index.html'), join(www, 'early.js')], output: { codeSplitting: { groups: [{ name: 'pkg', test: /\/pkg\/(?:index|wire)\.js$/ }] } } },
     },
   });
   if (found.size < IMPORTS.length) throw new Problem('An import that the site needs is no longer where tools/site.mjs looks for it.');

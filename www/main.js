@@ -1,8 +1,8 @@
 /** Entry point of the page: creates the session and its panels, and connects them. */
-import { isStart, stateOf } from './address.js';
 import { Analyses } from './analyses.js';
 import { connect } from './api.js';
 import { element } from './dom.js';
+import { isScene, isSolved } from './early.js';
 import { filesPanel } from './panels/files.js';
 import { galleryPanel } from './panels/gallery.js';
 import { watchDrops, watchIncoming } from './panels/incoming.js';
@@ -28,13 +28,11 @@ import { errorMessage } from './messages.js';
 
 async function start() {
   unfoldParts();
-  const { photo, whole } = stateOf(location.hash);
-  const isScene = !isStart(location.hash) && !photo;
   // What draws the first scene is fetched beside the solver. The scene reports the error of an import that failed.
   if (isScene) loadThree().catch(() => {});
   const session = new Session(await connect());
   // The doors, and what is behind the other two, need no solver.
-  const started = isScene && !whole ? session.start() : undefined;
+  const started = isSolved ? session.start() : undefined;
   const analyses = new Analyses(session.api.DevelopableWorker);
   const meshFit = new MeshFit(session.api);
   const { stage, heights } = heightsPanel(session, analyses);

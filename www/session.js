@@ -8,7 +8,7 @@
 import { Events } from './events.js';
 import { isPreviewed, PreviewSolver } from './preview.js';
 import { gridOf } from './surface/lattice.js';
-import { callWorker } from './surface/worker-client.js';
+import { callWorker, startWorker } from './surface/worker-client.js';
 import { WORKER_IDLE_MS } from './worker-task.js';
 
 /** @import {Preview} from './preview.js' */
@@ -119,10 +119,12 @@ export class Session extends Events {
     });
   }
 
-  /** Starts the workers of the solver and of the previews, before there is an input. @throws if the solver cannot be started */
+  /** Starts the workers before there is an input. @throws if the solver cannot be started */
   async start() {
     const solver = this.#connectedWorker().init();
     this.#previews.start();
+    // An error occurs again, and is reported, where the worker is needed.
+    startWorker().catch(() => {});
     await solver;
   }
 

@@ -13,6 +13,9 @@ async function start() {
   return { worker, tasks: wrap(worker) };
 }
 
+/** Starts the worker before its first task, unless it runs. */
+export const startWorker = () => (started ??= start());
+
 /**
  * Calls a task in the worker. The arguments are copied, or handed over by Comlink's `transfer`.
  * @template {keyof Tasks} T
@@ -21,7 +24,7 @@ async function start() {
  * @returns {Promise<Awaited<ReturnType<Tasks[T]>>>}
  */
 export async function callWorker(task, ...args) {
-  const { worker, tasks } = await (started ??= start());
+  const { worker, tasks } = await startWorker();
   const ended = new AbortController();
   return new Promise((resolve, reject) => {
     worker.addEventListener('error', () => reject(new Error('the page’s worker has failed')), { signal: ended.signal });

@@ -23,6 +23,8 @@ const DOORS = {
     // The first turn has to end.
     await page.waitForTimeout(3000);
     const model = await page.locator('#space-canvas').screenshot();
+    // About as wide as it is shown: lines that are drawn larger would be hairlines.
+    await page.setViewportSize({ width: 390, height: 844 });
     await page.locator('#end-sheets').click();
     return [model, await page.locator('.preview[aria-busy="false"] img').screenshot()];
   },

@@ -116,6 +116,10 @@ impl Label {
 
     /// Returns whether two texts lie on each other.
     fn touches(&self, other: &Label) -> bool {
+        let radius = |label: &Label| label.half_extent()[0].hypot(label.half_extent()[1]);
+        if distance(self.place, other.place) > radius(self) + radius(other) {
+            return false;
+        }
         let (one, two) = (self.turned_corners(), other.turned_corners());
         let is_apart = |p: &[Point2], q: &[Point2]| {
             (0..4).any(|k| {
@@ -175,13 +179,14 @@ impl Label {
             };
             let [edges, folds] =
                 [outlines, folds].map(|lines| lines.iter().filter(is_near).collect::<Vec<_>>());
+            // What costs most is asked last.
             let is_apart = |label: &Label| {
-                is_within(label.place, outlines.iter().copied())
-                    && !edges.iter().any(|line| label.is_crossed_by(line))
+                !edges.iter().any(|line| label.is_crossed_by(line))
                     && !out.iter().any(|other| label.touches(other))
+                    && is_within(label.place, outlines.iter().copied())
             };
             let is_free = |label: &&Label| {
-                is_apart(label) && !folds.iter().any(|line| label.is_crossed_by(line))
+                !folds.iter().any(|line| label.is_crossed_by(line)) && is_apart(label)
             };
             let is_on_folds = |label: &&Label| label.kind == LabelKind::Seam && is_apart(label);
             let kept = candidates.iter().find(is_free);

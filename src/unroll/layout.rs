@@ -56,7 +56,9 @@ pub fn unroll(surface: &Heightfield, options: &UnrollOptions) -> Result<Unrollin
     places.iter_mut().for_each(|place| *place *= spacing);
     align_to_plan(&mesh, &parts, count, &mut places);
     let border: Vec<[u32; 2]> = border(mesh.triangles()).collect();
-    let overlaps: Vec<[[u32; 2]; 2]> = (crossings(&places, &border).into_iter())
+    let mut crossing: Vec<[usize; 2]> = crossings(&places, &border).collect();
+    crossing.sort_unstable();
+    let overlaps: Vec<[[u32; 2]; 2]> = (crossing.into_iter())
         .map(|pair| pair.map(|edge| border[edge]))
         .collect();
     let report = UnrollReport {

@@ -271,7 +271,7 @@ impl FlatPart {
             .border()
             .map(|s| half_edge_ends(&self.triangles, s))
             .collect();
-        !crossings(&self.places, &border).is_empty() || self.covers_itself(&border)
+        crossings(&self.places, &border).next().is_some() || self.covers_itself(&border)
     }
 
     /// The closed lines around the flat part.

@@ -66,7 +66,7 @@ fn upright(outline: PageOutline, views: &Views) -> PageOutline {
     });
     let outline = outline.turned(first.unwrap_or(0));
     let corners = outline.corners.map(|point| views.raw.reduced_point(point));
-    let turns = quarter_turns(&views.raw, &views.clean, &corners);
+    let turns = quarter_turns(&views.raw, &corners);
     outline.turned(turns)
 }
 

@@ -39,6 +39,10 @@ const MAX_MISSING_STRIPS: usize = 2;
 /// Its row: `benches/page.md`, One rule at a time.
 const MIN_BAND_CONTRAST: f32 = 0.03;
 
+/// Weight of the print's distance below the page's middle, in shares of the page's height, against the skewness of its letters.
+/// Its row: `benches/outline.md`, Orientation.
+const LOWER_HALF_WEIGHT: f64 = 3.0;
+
 impl StripProfiles {
     /// Computes the mean darkness of each row in each vertical strip of an ink image.
     pub fn new(ink: &InkImage) -> Self {
@@ -68,6 +72,24 @@ impl StripProfiles {
             })
             .collect();
         StripProfiles { step, profiles }
+    }
+
+    /// How much the print seems to be upside down; negative where it is upright. Letters end more steeply at their baseline than
+    /// above, where more of them go on, and a page has more print in its upper half.
+    pub fn upside_down(&self) -> f64 {
+        let (mut rise, mut steps, mut print, mut lower) = (0.0, 1e-12, 1e-12, 0.0);
+        for profile in &self.profiles {
+            for pair in profile.windows(2) {
+                let step = f64::from(pair[1] - pair[0]).powi(3);
+                rise += step;
+                steps += step.abs();
+            }
+            for (row, ink) in profile.iter().enumerate() {
+                print += f64::from(*ink);
+                lower += f64::from(*ink) * ((row as f64 + 0.5) / profile.len() as f64 - 0.5);
+            }
+        }
+        rise / steps + LOWER_HALF_WEIGHT * lower / print
     }
 
     /// Smooths the darkness along the columns by a Gaussian with standard deviation `sigma`, in pixels.

@@ -45,3 +45,11 @@ pub(in crate::page) fn find_baselines(
         })
         .collect()
 }
+
+/// Whether the print on one flat page, which is seen as for [`find_baselines`], seems to be upside down.
+pub(in crate::page) fn is_upside_down(
+    size: [f64; 2],
+    brightness: impl Fn([f64; 2]) -> f32,
+) -> bool {
+    StripProfiles::new(&InkImage::new(size, brightness)).upside_down() > 0.0
+}

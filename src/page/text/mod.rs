@@ -13,4 +13,4 @@ mod lines;
 pub(super) mod ranking;
 
 pub(super) use grey_photo::GreyPhoto;
-pub(super) use lines::find_baselines;
+pub(super) use lines::{find_baselines, is_upside_down};

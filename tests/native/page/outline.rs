@@ -450,6 +450,39 @@ fn a_page_that_lies_sideways_is_turned_by_its_print() {
     }
 }
 
+/// A page that is printed evenly, a little more in its lower half: short letters, of which every third goes on above the others.
+fn prose([u, v]: [f64; 2]) -> Colour {
+    let (letter, line, row) = ((u * 50.0) as usize, (v * 24.0) as usize, (v * 24.0).fract());
+    let is_long = (letter + line * line).is_multiple_of(3);
+    let height = if is_long { 0.65 } else { 0.35 };
+    let is_text = (0.1..0.9).contains(&u)
+        && (0.1..0.94).contains(&v)
+        && (letter * 5 + line * 3) % 7 != 0
+        && (0.8 - height..0.8).contains(&row);
+    if is_text { [50.0; 3] } else { PAPER }
+}
+
+#[test]
+fn a_page_that_lies_sideways_has_the_long_letters_up() {
+    for turn in [1, 3] {
+        let mut turned = PAGE;
+        turned.rotate_left(turn);
+        let page = photo(pages(&[turned], prose, wood), even);
+        check("prose", &page, &turned);
+    }
+}
+
+#[test]
+fn a_page_is_not_turned_by_a_picture() {
+    // Lines of words above a picture of upright bars.
+    let cover = |[u, v]: [f64; 2]| match (0.1..0.9).contains(&u) && (0.45..0.95).contains(&v) {
+        true if (u * 20.0).fract() < 0.5 => [50.0; 3],
+        false if v < 0.4 => letter([u, v]),
+        _ => PAPER,
+    };
+    check("cover", &photo(pages(&[PAGE], cover, wood), even), &PAGE);
+}
+
 #[test]
 fn a_wide_page_is_not_turned_by_its_print() {
     // A card that is four times as wide as high, with three lines of words.

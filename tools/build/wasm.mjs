@@ -29,7 +29,7 @@ const files = [
   { name: 'images', limit: 591_000 },
   { name: 'meshes', limit: 345_000 },
   { name: 'fitmesh', limit: 231_000 },
-  { name: 'unroll', limit: 365_000 },
+  { name: 'unroll', limit: 366_000 },
   { name: 'patterns', limit: 710_000 },
 ];
 

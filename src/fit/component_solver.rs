@@ -236,6 +236,8 @@ impl ComponentSolver {
             .gap()
             .is_some_and(|gap| gap <= self.options.gap_or_default());
         let any = |reason| self.answers.iter().any(|answer| answer.reason == reason);
+        // The paper's schedule asks for no gap.
+        let is_reached = certified && any(StopReason::Gap);
         [
             StopReason::Cancelled,
             StopReason::Diverged,
@@ -243,8 +245,8 @@ impl ComponentSolver {
             StopReason::Residuals,
         ]
         .into_iter()
-        .find(|reason| any(*reason) && !(certified && *reason == StopReason::MaxIterations))
-        .unwrap_or(match certified {
+        .find(|reason| any(*reason) && !(is_reached && *reason == StopReason::MaxIterations))
+        .unwrap_or(match is_reached {
             true => StopReason::Gap,
             false => StopReason::Rounding,
         })

@@ -13,8 +13,6 @@ export const withoutFaces = ({ cut, join, stock, ...others }) => others;
 /** What tells a model from others, to keep what was chosen for it. @param {Pick<Input, 'name' | 'width' | 'height' | 'sampling'>} input */
 export const modelOf = ({ name, width, height, sampling }) => `${name} ${sampling ? sampling.mesh.positions.length : width * height}`;
 
-/** Number of flat faces that stand for a shape where it is not said (`benches/patterns.md`, Models of any shape). */
-const FEW_FACES = 500;
 /** Maximum strain of paper. */
 const MAX_PAPER_STRAIN = 0.01;
 /** Length mismatch of joints above which their sides are seen not to fit, as a share. */
@@ -53,11 +51,9 @@ export function lengthUnitOf({ unit, kind }) {
   return unit !== undefined && Object.hasOwn(MM_PER_UNIT, unit) ? /** @type {LengthUnit} */ (unit) : 'unknown';
 }
 
-/** Cuts a result into sheets; one that is creased all over becomes flat faces at once, since cuts fail after a minute. @param {Analyses} analyses @param {Result} result @param {CutOptions} options @param {Tell} tell */
-export async function cutSheets(analyses, result, { side, ...given }, tell) {
-  const { count: patches } = await analyses.patchCount(result);
-  const { faces = Number.isFinite(patches) ? undefined : FEW_FACES } = given;
-  return analyses.pattern(result, { scale: side / longerSide(result), ...(faces === undefined ? withoutFaces(given) : { ...given, faces }) }, tell);
+/** Cuts a result into sheets. @param {Analyses} analyses @param {Result} result @param {CutOptions} options @param {Tell} tell */
+export function cutSheets(analyses, result, { side, ...given }, tell) {
+  return analyses.pattern(result, { scale: side / longerSide(result), ...(given.faces === undefined ? withoutFaces(given) : given) }, tell);
 }
 
 /** The number of sheets, folds, seams and slits in sentences, and what is missing. @param {Drawing} drawing */

@@ -34,7 +34,7 @@ pub(crate) fn crossings(places: &[Point], border: &[[u32; 2]]) -> impl Iterator<
     })
 }
 
-#[cfg(test)]
+#[cfg(all(test, not(target_arch = "wasm32")))] // proptest is native
 mod tests {
     use std::f64::consts::TAU;
 

@@ -116,8 +116,8 @@ impl Label {
 
     /// Returns whether two texts lie on each other.
     fn touches(&self, other: &Label) -> bool {
-        let radius = |label: &Label| label.half_extent()[0].hypot(label.half_extent()[1]);
-        if distance(self.place, other.place) > radius(self) + radius(other) {
+        let [[a, b], [c, d]] = [self, other].map(|label| label.half_extent());
+        if distance(self.place, other.place) > a.hypot(b) + c.hypot(d) {
             return false;
         }
         let (one, two) = (self.turned_corners(), other.turned_corners());

@@ -224,9 +224,8 @@ impl ComponentSolver {
         (next < self.components.list.len()).then_some(next)
     }
 
-    /// Returns the least successful of the reasons why components stopped. The duality gap is that of all together: it
-    /// may be small enough although some components were stopped by their number of iterations, and rounding errors of
-    /// some may exceed it.
+    /// Returns the least successful of the reasons why components stopped; where some reached the duality gap and all together are
+    /// within it, that is the reason, although others were stopped by their number of iterations.
     fn reason(&self) -> StopReason {
         let mut total = Totals::default();
         for answer in &self.answers {
@@ -236,20 +235,17 @@ impl ComponentSolver {
             .gap()
             .is_some_and(|gap| gap <= self.options.gap_or_default());
         let any = |reason| self.answers.iter().any(|answer| answer.reason == reason);
-        // The paper's schedule asks for no gap.
-        let is_reached = certified && any(StopReason::Gap);
         [
             StopReason::Cancelled,
             StopReason::Diverged,
+            StopReason::Gap,
             StopReason::MaxIterations,
             StopReason::Residuals,
         ]
         .into_iter()
-        .find(|reason| any(*reason) && !(is_reached && *reason == StopReason::MaxIterations))
-        .unwrap_or(match is_reached {
-            true => StopReason::Gap,
-            false => StopReason::Rounding,
-        })
+        // Rounding errors of some components may exceed the gap of all together.
+        .find(|reason| any(*reason) && (*reason != StopReason::Gap || certified))
+        .unwrap_or(StopReason::Rounding)
     }
 
     /// Continues the solve until `left` conjugate-gradient iterations are used up.

@@ -5,12 +5,12 @@ use crate::dewarp::bilinear;
 use crate::math::planar::distance;
 use crate::page::text::{find_baselines, is_upside_down};
 
-/// Minimum ratio of the lengths of lines of text that run down in the photo and that run across for the page to lie sideways.
-/// Its row: `benches/outline.md`, Orientation.
+/// Minimum ratio of the lengths of lines of text that run down in the photo and that run across for the page to lie sideways
+/// (`benches/outline.md`, Orientation).
 const MIN_SIDEWAYS_RATIO: f64 = 1.5;
 
-/// Minimum number of lines of text for a page to be turned by them: pictures and handwriting have a few bands that are none.
-/// Its row: `benches/outline.md`, Orientation.
+/// Minimum number of lines of text for a page to be turned by them: pictures and handwriting have a few bands that are none
+/// (`benches/outline.md`, Orientation).
 const MIN_SIDEWAYS_LINES: usize = 8;
 
 /// Number of corners by which the list of corners has to be rotated to begin with the upper left one of the page as it

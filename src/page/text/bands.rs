@@ -39,8 +39,8 @@ const MAX_MISSING_STRIPS: usize = 2;
 /// Its row: `benches/page.md`, One rule at a time.
 const MIN_BAND_CONTRAST: f32 = 0.03;
 
-/// Weight of the print's distance below the page's middle, in shares of the page's height, against the skewness of its letters.
-/// Its row: `benches/outline.md`, Orientation.
+/// Weight of the print's distance below the page's middle, in shares of the page's height, against the skewness of its letters
+/// (`benches/outline.md`, Orientation).
 const LOWER_HALF_WEIGHT: f64 = 3.0;
 
 impl StripProfiles {

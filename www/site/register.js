@@ -3,12 +3,14 @@ const { serviceWorker } = navigator;
 /** The page while something is being opened or solved. */
 const BUSY = 'main:is([data-phase="starting"], [data-phase="running"], [data-opening]), main [aria-busy="true"]';
 const changes = new MutationObserver(registerWhenIdle);
+let isRegistered = false;
 
 /** Registers the worker when the page has nothing to do: the files that it fetches would delay an answer. */
 function registerWhenIdle() {
   // A solve follows an opening at once.
   setTimeout(() => {
-    if (document.querySelector(BUSY)) return;
+    if (isRegistered || document.querySelector(BUSY)) return;
+    isRegistered = true;
     changes.disconnect();
     serviceWorker.register('./sw.js').then(watch, () => {});
   });
